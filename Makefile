@@ -1,0 +1,33 @@
+# Everything runs in .venv, which the first target that needs it sets up.
+PYTHON ?= python3
+BIN := .venv/bin
+
+.PHONY: demo test bench clean
+
+# Show the main job on the built-in data.
+demo: .venv/ready
+	$(BIN)/foon-asp retrieve "whipped cream"
+	$(BIN)/foon-asp retrieve "greek salad" --method optimal --by success
+	$(BIN)/foon-asp reach
+	$(BIN)/foon-asp compare "whipped cream" "greek salad" ice macaroni "sweet potato" "chicken curry" hummus
+
+# Check everything: format, lint, types, import layers, tests (the encodings' lint is one of them).
+test: .venv/ready
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/pytest
+
+# Measure; see benchmarks/README.md.
+bench: .venv/ready
+	$(BIN)/python benchmarks/retrieval.py
+
+clean:
+	rm -rf .venv build *.egg-info
+
+.venv/ready: pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --upgrade pip
+	$(BIN)/pip install --quiet --editable '.[test]'
+	touch $@

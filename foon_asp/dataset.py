@@ -1,0 +1,113 @@
+"""A data folder: a FOON with its kitchen, success rates, utensils and goals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from foon_asp.errors import InputError
+from foon_asp.files import read_objects, read_rates, read_string, read_utensils
+from foon_asp.findings import Finding, Severity
+from foon_asp.graph import Foon, FoonBuilder, ObjectNode
+from foon_asp.kitchen import Kitchen
+from foon_asp.problem import Domain
+from foon_asp.resources import built_in_data
+from foon_asp.text import TextReader
+
+_BESIDE_A_FOON = frozenset({"motion.txt", "utensils.txt"})
+
+
+@dataclass(frozen=True, slots=True)
+class Dataset:
+    """What a folder holds. `findings` says what was odd in the FOON files."""
+
+    foon: Foon
+    kitchen: Kitchen
+    goals: tuple[ObjectNode, ...]
+    findings: tuple[Finding, ...]
+
+    def domain(self, *, strict: bool = False) -> Domain:
+        """See the FOON from the kitchen."""
+        return Domain(self.foon, self.kitchen, strict=strict)
+
+
+def read_foon(paths: Sequence[Path]) -> tuple[Foon, list[Finding]]:
+    """Read FOON files and merge them, duplicate units removed; also return what is odd in them.
+
+    Raises `InputError` if a file cannot be read as a FOON or no functional unit is in any of them.
+    """
+    builder = FoonBuilder()
+    reader = TextReader(builder)
+    for path in paths:
+        before = builder.read + reader.reported_units
+        places = len(reader.findings)
+        reader.read(read_string(path), str(path))
+        if builder.read + reader.reported_units == before:
+            unreadable = [f for f in reader.findings[places:] if f.severity is Severity.ERROR]
+            if unreadable:
+                raise InputError(
+                    path,
+                    unreadable[0].line,
+                    f"not a FOON file: {unreadable[0].message}",
+                    "a unit is O and S lines, an M line, O and S lines, and '//'",
+                )
+    foon = builder.build()
+    if not foon.units:
+        first = paths[0] if paths else "no file"
+        raise InputError(first, None, "an empty FOON: no functional unit", "name a FOON file")
+    return foon, reader.findings
+
+
+def foon_files(folder: Path) -> list[Path]:
+    """Return `FOON.txt` of a folder, or else all its subgraphs (`*.txt`), sorted."""
+    universal = folder / "FOON.txt"
+    if universal.exists():
+        return [universal]
+    return sorted(path for path in folder.glob("*.txt") if path.name not in _BESIDE_A_FOON)
+
+
+def load(
+    folder: str | Path | None = None,
+    *,
+    foon: Sequence[str | Path] = (),
+    kitchen: str | Path | None = None,
+    rates: str | Path | None = None,
+    utensils: str | Path | None = None,
+    goals: str | Path | None = None,
+    default_rate: float | None = None,
+) -> Dataset:
+    """Load a data folder, the built-in one by default; files named one by one replace its own.
+
+    A folder has `FOON.txt` or several subgraphs `*.txt`, and may have `kitchen.json`, `motion.txt`,
+    `utensils.txt` and `goal_nodes.json`. What the folder lacks is empty. Raises `InputError`.
+    """
+    root = built_in_data() if folder is None else Path(folder)
+    if not root.is_dir():
+        problem = "this is no folder" if root.exists() else "no such folder"
+        raise InputError(root, None, problem, "name one with FOON.txt, or a file with --foon")
+    foon_paths = [Path(path) for path in foon] or foon_files(root)
+    if not foon_paths:
+        raise InputError(root, None, "no FOON.txt and no other *.txt", "name FOON files with --foon")
+    graph, findings = read_foon(foon_paths)
+    kitchen_path = _choose(kitchen, root / "kitchen.json")
+    rates_path = _choose(rates, root / "motion.txt")
+    utensils_path = _choose(utensils, root / "utensils.txt")
+    goals_path = _choose(goals, root / "goal_nodes.json")
+    return Dataset(
+        foon=graph,
+        kitchen=Kitchen(
+            objects=tuple(read_objects(kitchen_path)) if kitchen_path else (),
+            utensils=read_utensils(utensils_path) if utensils_path else frozenset(),
+            rates=read_rates(rates_path) if rates_path else {},
+            default_rate=default_rate,
+        ),
+        goals=tuple(read_objects(goals_path)) if goals_path else (),
+        findings=tuple(findings),
+    )
+
+
+def _choose(named: str | Path | None, usual: Path) -> Path | None:
+    if named is not None:
+        return Path(named)
+    return usual if usual.exists() else None

@@ -1,0 +1,25 @@
+"""From an answer to what it means: the only reader of output predicates."""
+
+from __future__ import annotations
+
+from foon_asp.errors import InternalError
+from foon_asp.problem import Problem
+from foon_asp.solve import Answer
+from foon_asp.tree import TaskTree
+
+
+def decode_tree(problem: Problem, answer: Answer) -> TaskTree:
+    """Return the task tree of a model, replayed.
+
+    Raises `InternalError` if a founded tree cannot be executed: then an encoding is wrong.
+    """
+    tree = TaskTree.of(problem.domain, problem.goals, column(answer, "use"))
+    if problem.founded and not tree.executable:
+        missing = ", ".join(map(str, tree.replay.missing))
+        raise InternalError(f"a founded task tree fails its replay: {missing} is missing")
+    return tree
+
+
+def column(answer: Answer, predicate: str) -> list[int]:
+    """Return the first arguments of a predicate in the model, sorted, each once."""
+    return sorted({arguments[0] for name, arguments in answer.atoms or () if name == predicate})

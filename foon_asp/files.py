@@ -1,0 +1,136 @@
+"""Reading what stands beside a FOON: kitchen, goals, success rates, utensils. One clear error each."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from foon_asp.errors import InputError
+from foon_asp.graph import ObjectNode, State, contains, inside
+from foon_asp.state_syntax import parse_state
+
+
+def read_bytes(path: Path) -> bytes:
+    """Return the bytes of a file; every way this can fail is an `InputError`."""
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(path, None, "no such file", "check the path") from None
+    except IsADirectoryError:
+        raise InputError(path, None, "this is a folder", "name a file in it") from None
+    except OSError as error:
+        raise InputError(path, None, f"cannot be read ({error.strerror})") from None
+
+
+def read_string(path: Path) -> str:
+    """Return the text of a UTF-8 file."""
+    data = read_bytes(path)
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        byte = data[error.start]
+        raise InputError(path, line, f"byte 0x{byte:02x} is not UTF-8", "save the file as UTF-8") from None
+
+
+def read_objects(path: Path) -> list[ObjectNode]:
+    """Read a JSON list of objects `{label, states, ingredients, container}`: a kitchen or goals."""
+    text = read_string(path)
+    data = parse_json(text, path)
+    if not isinstance(data, list):
+        raise InputError(path, 1, "expected a JSON list of objects", 'write [{"label": "…"}, …]')
+    nodes = []
+    for place, item in enumerate(data):
+        try:
+            nodes.append(object_from_json(item))
+        except ValueError as error:
+            line = _line_of_item(text, place)
+            advice = 'write {"label": "…", "states": [], "ingredients": [], "container": null}'
+            raise InputError(path, line, f"object {place + 1}: {error}", advice) from None
+    return nodes
+
+
+def parse_json(text: str, path: Path) -> Any:
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError(path, error.lineno, f"not JSON: {error.msg}") from None
+    except RecursionError:
+        raise InputError(path, 1, "not JSON that can be read: nested too deeply") from None
+
+
+def object_from_json(item: object) -> ObjectNode:
+    """Read one object; `ingredients` are the contents of `contains`, `container` the relatum of `in`.
+
+    Raises `ValueError` with what is wrong.
+    """
+    if not isinstance(item, dict):
+        raise ValueError(f"expected an object, found {json.dumps(item)[:40]}")
+    label = item.get("label")
+    if not isinstance(label, str) or not label.strip():
+        raise ValueError("'label' is missing or no text")
+    states: list[State] = []
+    for text in _texts(item, "states"):
+        state = parse_state(text)
+        if state is None:
+            raise ValueError(f"the state {text!r} cannot be read")
+        states.append(state)
+    ingredients = [text.strip().lower() for text in _texts(item, "ingredients") if text.strip()]
+    if ingredients:
+        states.append(contains(*ingredients))
+    container = item.get("container")
+    if container is not None and not isinstance(container, str):
+        raise ValueError("'container' is neither text nor null")
+    if container and container.strip():
+        states.append(inside(container.strip().lower()))
+    return ObjectNode.of(label.strip().lower(), states)
+
+
+def _texts(item: dict[str, object], key: str) -> list[str]:
+    value = item.get(key)
+    if value is None:
+        return []
+    if not isinstance(value, list) or not all(isinstance(text, str) for text in value):
+        raise ValueError(f"{key!r} is not a list of texts")
+    return value
+
+
+def _line_of_item(text: str, place: int) -> int:
+    """Return the line on which the item at `place` of a JSON list begins."""
+    decoder = json.JSONDecoder()
+    position = text.index("[") + 1
+    for _ in range(place + 1):
+        while text[position] in " \t\r\n,":
+            position += 1
+        start = position
+        _, position = decoder.raw_decode(text, position)
+    return text.count("\n", 0, start) + 1
+
+
+def read_rates(path: Path) -> dict[str, float]:
+    """Read `motion<tab>rate` lines; a rate is a chance in [0, 1]."""
+    rates: dict[str, float] = {}
+    for line, row in _rows(path):
+        label, tab, text = row.rpartition("\t")
+        try:
+            rate = float(text)
+        except ValueError:
+            rate = -1.0
+        if not tab or not label.strip() or not 0 <= rate <= 1:
+            advice = "write motion<tab>rate, the rate between 0 and 1"
+            raise InputError(path, line, f"cannot read {row!r}", advice)
+        rates[label.strip().lower().rstrip("*").rstrip()] = rate
+    return rates
+
+
+def read_utensils(path: Path) -> frozenset[str]:
+    """Read utensil labels, one a line."""
+    return frozenset(row.strip().lower() for _, row in _rows(path))
+
+
+def _rows(path: Path) -> Iterator[tuple[int, str]]:
+    for line, row in enumerate(read_string(path).splitlines(), 1):
+        if row.strip() and not row.startswith("#"):
+            yield line, row

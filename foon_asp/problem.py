@@ -1,0 +1,106 @@
+"""A problem: a FOON, a kitchen and goals, brought onto one numbering."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+
+from foon_asp.errors import QueryError, closest
+from foon_asp.graph import Foon, ObjectNode
+from foon_asp.kitchen import Kitchen
+from foon_asp.reading import Closure, Reading
+
+
+class Domain:
+    """A FOON seen from a kitchen; everything that does not depend on the goal is worked out once.
+
+    Kitchen objects that the FOON does not know get the ids after the FOON's own.
+    """
+
+    def __init__(self, foon: Foon, kitchen: Kitchen, *, strict: bool = False) -> None:
+        self.foon = foon
+        self.kitchen = kitchen
+        self.strict = strict
+        ids: dict[int, None] = {}
+        self.strangers: list[ObjectNode] = []
+        for node in dict.fromkeys(kitchen.objects):
+            number = foon.id_of(node)
+            if number is None:
+                number = len(foon.objects) + len(self.strangers)
+                self.strangers.append(node)
+            ids[number] = None
+        self.stock: dict[int, None] = ids
+
+    @cached_property
+    def reading(self) -> Reading:
+        return Reading(self.foon, self.kitchen.utensils, strict=self.strict)
+
+    @cached_property
+    def closure(self) -> Closure:
+        """All that the kitchen can make, and all units that it can execute."""
+        return self.reading.forward(self.stock)
+
+    def node(self, number: int) -> ObjectNode:
+        known = len(self.foon.objects)
+        return self.foon.objects[number] if number < known else self.strangers[number - known]
+
+    def id_of(self, node: ObjectNode) -> int:
+        """Return the id of an object node; raise `QueryError` if neither FOON nor kitchen has it."""
+        number = self.foon.id_of(node)
+        if number is None:
+            if node in self.strangers:
+                return len(self.foon.objects) + self.strangers.index(node)
+            same_label = [str(other) for other in self.foon.objects if other.label == node.label]
+            hint = closest(str(node), same_label) or closest(node.label, self.foon.labels)
+            raise QueryError(f"unknown goal {str(node)!r}{hint}")
+        return number
+
+    def problem(self, goals: Iterable[ObjectNode], *, founded: bool = True) -> Problem:
+        return Problem(self, tuple(self.id_of(goal) for goal in goals), founded=founded)
+
+
+class Problem:
+    """What the solver is asked: goals over a domain, with only the units that can matter for them.
+
+    `founded` keeps the units that the kitchen can execute; without it (the reading of the published
+    programs) every unit that leads to a goal stays, even in circles.
+    """
+
+    def __init__(
+        self,
+        domain: Domain,
+        goals: tuple[int, ...],
+        *,
+        founded: bool = True,
+        whole: bool = False,
+    ) -> None:
+        self.domain = domain
+        self.goals = goals
+        self.founded = founded
+        self.whole = whole
+
+    @property
+    def reachable(self) -> bool:
+        """Whether the kitchen can make every goal."""
+        return all(goal in self.domain.closure.available for goal in self.goals)
+
+    @cached_property
+    def units(self) -> list[int]:
+        """Ids of the units given to the solver, in file order."""
+        domain = self.domain
+        if self.whole:
+            return list(range(len(domain.foon.units)))
+        allowed = domain.closure.executable if self.founded else None
+        return domain.reading.backward(self.goals, domain.stock, allowed)
+
+    @cached_property
+    def objects(self) -> list[int]:
+        """Ids of the objects given to the solver, sorted."""
+        domain = self.domain
+        if self.whole:
+            return list(range(len(domain.foon.objects) + len(domain.strangers)))
+        seen = set(self.goals)
+        for number in self.units:
+            unit = domain.foon.units[number]
+            seen.update(unit.inputs, unit.outputs)
+        return sorted(seen)

@@ -1,0 +1,27 @@
+"""Where the encodings and the built-in data lie: inside an installed package, beside it in a checkout.
+
+Both are folders of the top level that the wheel takes along as package data. An editable install cannot
+map a folder without `__init__.py` into a package, and `encodings/__init__.py` would hide Python's own
+`encodings` from anyone who runs Python in a checkout; so the two places are looked up plainly.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parent
+
+
+def _folder(name: str) -> Path:
+    installed = _PACKAGE / name
+    return installed if installed.is_dir() else _PACKAGE.parent / name
+
+
+def encoding(name: str) -> Path:
+    """Return the path of an encoding, e.g. `units.lp` or `criteria/units.lp`."""
+    return _folder("encodings") / name
+
+
+def built_in_data() -> Path:
+    """Return the folder of the data that comes with the program."""
+    return _folder("data")

@@ -1,0 +1,266 @@
+"""Retrieval: from a goal to a checked task tree, by any of the methods."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from foon_asp.decode import column, decode_tree
+from foon_asp.errors import InternalError, QueryError
+from foon_asp.facts import facts, success_chance
+from foon_asp.graph import ObjectNode
+from foon_asp.problem import Domain, Problem
+from foon_asp.solve import Answer, Solver
+from foon_asp.tree import TaskTree
+
+METHODS = ("optimal", "greedy", "ids", "first")
+CRITERIA = ("units", "success", "inputs", "depth")
+HEURISTICS = ("success", "inputs")
+
+OPTIMISE = ("--opt-strategy=usc",)
+
+
+@dataclass(frozen=True, slots=True)
+class Retrieval:
+    """The answer to one goal.
+
+    `status` is `optimal` (proven), `found` (by a method that does not optimise), `unreachable` (no tree
+    exists; `reason` says why) or `limit` (the time ran out; the tree is the best so far). `bound` holds,
+    for the criteria that are not proven, what no tree can beat. `seconds` is wall time.
+    """
+
+    goal: ObjectNode
+    method: str
+    by: tuple[str, ...]
+    founded: bool
+    status: str
+    tree: TaskTree | None
+    bound: dict[str, float]
+    reason: str
+    seconds: float
+
+
+def retrieve(
+    domain: Domain,
+    goal: ObjectNode,
+    method: str = "optimal",
+    by: Sequence[str] = (),
+    *,
+    founded: bool = True,
+    time_limit: float | None = None,
+) -> Retrieval:
+    """Retrieve a task tree for a goal; every tree is replayed from the kitchen before it is returned.
+
+    `by` names the criteria of `optimal`, the most important first (`units` by default), or the
+    heuristic of `greedy` (`success` by default). `founded=False` reads units as the published programs
+    do: the tree may go in circles. `time_limit` is in seconds. Raises `QueryError`.
+    """
+    started = time.perf_counter()
+    by = check_method(method, by, founded)
+    problem = domain.problem([goal], founded=founded)
+    deadline = None if time_limit is None else time.monotonic() + time_limit
+    reason = unreachable_reason(problem)
+    status, tree, bound = "unreachable", None, {}
+    if not reason:
+        if method == "optimal":
+            status, tree, bound = _optimal(problem, by, deadline)
+        elif method == "ids":
+            status, tree = "found", _ids(problem)
+        else:
+            heuristic = by[0] if method == "greedy" else "first"
+            status, tree = _greedy(problem, heuristic, deadline)
+    seconds = time.perf_counter() - started
+    return Retrieval(goal, method, by, founded, status, tree, bound, reason, seconds)
+
+
+def reach(domain: Domain) -> tuple[list[int], list[int]]:
+    """Return the ids of all available objects and all executable units, as clingo derives them.
+
+    Raises `InternalError` if the plain graph search does not agree.
+    """
+    problem = Problem(domain, (), whole=True)
+    answer = _solver(problem, ["reachability.lp"], {}).best(None)
+    available, executable = column(answer, "available"), column(answer, "executable")
+    if domain.closure.available.keys() != set(available):
+        raise InternalError("reachability.lp and the graph search disagree on what is available")
+    if domain.closure.executable.keys() != set(executable):
+        raise InternalError("reachability.lp and the graph search disagree on what is executable")
+    return available, executable
+
+
+def check_method(method: str, by: Sequence[str], founded: bool) -> tuple[str, ...]:
+    """Return the criteria of a method, its default if none are named; raise `QueryError`."""
+    choices = {"optimal": CRITERIA, "greedy": HEURISTICS, "ids": (), "first": ()}
+    if method not in choices:
+        raise QueryError(f"unknown method {method!r}; methods: {', '.join(METHODS)}")
+    known = choices[method]
+    if not known:
+        if by:
+            raise QueryError(f"the method {method!r} takes no criteria; leave out --by")
+        if method == "ids" and not founded:
+            raise QueryError(
+                "'ids' is founded by construction; what the published program of that name prints is"
+                " --method first --reference"
+            )
+        return ()
+    if unknown := [name for name in by if name not in known]:
+        raise QueryError(f"{method!r} knows no criterion {unknown[0]!r}; one of {', '.join(known)}")
+    if len(set(by)) != len(by):
+        raise QueryError(f"a criterion is named twice in {','.join(by)!r}")
+    if method == "greedy" and len(by) > 1:
+        raise QueryError("'greedy' takes one criterion; use 'optimal' for several")
+    if "depth" in by and not founded:
+        raise QueryError("'depth' is only defined for trees that can be executed; drop --reference")
+    return tuple(by) or (known[0] if method == "optimal" else "success",)
+
+
+def unreachable_reason(problem: Problem) -> str:
+    """Say in one sentence why no task tree can exist, or return nothing if one can."""
+    domain = problem.domain
+    makers = domain.reading.makers
+    for goal in problem.goals:
+        if goal in domain.stock:
+            continue
+        node = domain.node(goal)
+        if goal not in makers:
+            return f"no unit makes {node}" + (
+                "; it is bare (has no states), so only the kitchen can have it" if node.bare else ""
+            )
+        if problem.founded and goal not in domain.closure.available:
+            return _locked(domain, goal)
+    return ""
+
+
+def _locked(domain: Domain, goal: int) -> str:
+    """Say what stands in the way of a goal that units make, but none that can be executed."""
+    reading = domain.reading
+    available = domain.closure.available
+    units = reading.backward([goal], available)
+    lacking = {thing for unit in units for thing in reading.needs[unit] if thing not in available}
+    nobody = sorted(thing for thing in lacking if thing not in reading.makers)
+    if nobody:
+        names = ", ".join(str(domain.node(thing)) for thing in nobody[:3])
+        more = f" and {len(nobody) - 3} more" if len(nobody) > 3 else ""
+        return f"the kitchen lacks {names}{more}, and no unit makes it"
+    inner, circle = _circle(domain, goal)
+    places = ", ".join(str(domain.foon.units[unit].source) for unit in circle)
+    return f"locked in a circle: {domain.node(inner)} is needed to make itself ({places})"
+
+
+def _circle(domain: Domain, goal: int) -> tuple[int, list[int]]:
+    """Follow what is lacking from the goal, first maker first, until an object comes again.
+
+    Return that object and the units of the circle.
+    """
+    reading = domain.reading
+    available = domain.closure.available
+    path: dict[int, int] = {}
+    thing = goal
+    while thing not in path:
+        unit = reading.makers[thing][0]
+        path[thing] = unit
+        thing = next(need for need in reading.needs[unit] if need not in available)
+    things = list(path)
+    return thing, [path[each] for each in things[things.index(thing) :]]
+
+
+def _solver(
+    problem: Problem,
+    encodings: Sequence[str],
+    constants: dict[str, str | int],
+    *,
+    extra_facts: str = "",
+    rates_required: bool = False,
+) -> Solver:
+    constants = {**constants, "strict": int(problem.domain.strict)}
+    text = facts(problem, rates_required=rates_required) + extra_facts
+    return Solver(encodings, text, constants, OPTIMISE)
+
+
+def _optimal(
+    problem: Problem, by: tuple[str, ...], deadline: float | None
+) -> tuple[str, TaskTree | None, dict[str, float]]:
+    criteria = by if "units" in by else (*by, "units")
+    priorities = range(len(criteria) - 1, -1, -1)
+    constants: dict[str, str | int] = {"founded": int(problem.founded)}
+    if "depth" in by:
+        constants["horizon"] = _horizon(problem, by, deadline)
+    solver = _solver(
+        problem,
+        ["task_tree.lp", *(f"criteria/{name}.lp" for name in criteria)],
+        constants,
+        extra_facts="".join(
+            f'criterion("{name}",{priority}).\n' for name, priority in zip(criteria, priorities, strict=True)
+        ),
+        rates_required="success" in by,
+    )
+    first = solver.any_model() if deadline is not None else None
+    answer = solver.best(deadline)
+    if answer.atoms is None and first is not None:
+        answer = Answer(first.atoms, answer.proven, first.costs, answer.bounds)
+    if answer.atoms is None:
+        return "unreachable", None, {}
+    tree = decode_tree(problem, answer)
+    if answer.proven:
+        return "optimal", tree, {}
+    return "limit", tree, _bound(criteria, by, answer)
+
+
+def _bound(criteria: Sequence[str], by: Sequence[str], answer: Answer) -> dict[str, float]:
+    bound: dict[str, float] = {}
+    # Before the solver has proven anything it is proven that no cost is negative.
+    bounds = answer.bounds or (0,) * len(criteria)
+    for name, cost, lower in zip(criteria, answer.costs, bounds, strict=True):
+        if name in by and lower < cost:
+            bound[name] = success_chance(lower) if name == "success" else lower
+    return bound
+
+
+def _horizon(problem: Problem, by: tuple[str, ...], deadline: float | None) -> int:
+    """Return a depth that some best tree does not exceed.
+
+    If depth comes first it is the round in which the closure reaches the goals. Else any tree that is
+    best by the criteria before it will do: a best tree is no deeper.
+    """
+    before = by[: by.index("depth")]
+    if before:
+        _, tree, _ = _optimal(problem, before, deadline)
+        return max(1, tree.depth or 1) if tree else 1
+    closure = problem.domain.closure
+    return max(1, *(closure.available[goal] for goal in problem.goals))
+
+
+def _greedy(problem: Problem, heuristic: str, deadline: float | None) -> tuple[str, TaskTree | None]:
+    # The levels of a selection are about as many as the rounds of the closure.
+    rounds = problem.domain.closure.available
+    horizon = 4 + max(rounds.get(goal, 8) for goal in problem.goals)
+    while True:
+        solver = _solver(
+            problem,
+            ["greedy.lp"],
+            {"founded": int(problem.founded), "by": heuristic, "horizon": horizon},
+            rates_required=heuristic == "success",
+        )
+        answer = solver.best(deadline)
+        if answer.atoms is None:
+            return ("limit" if not answer.proven else "unreachable"), None
+        if not answer.proven:
+            return "limit", decode_tree(problem, answer)
+        if not column(answer, "beyond"):
+            return "found", decode_tree(problem, answer)
+        horizon *= 2
+
+
+def _ids(problem: Problem) -> TaskTree:
+    solver = _solver(problem, ["ids.lp"], {})
+    for bound in range(len(problem.units) + 1):
+        if bound > 0:
+            solver.ground("step", bound)
+        solver.ground("check", bound)
+        solver.switch("bound", bound, True)
+        if solver.best(None).atoms is not None:
+            solver.ground("choose", bound)
+            return decode_tree(problem, solver.best(None))
+        solver.switch("bound", bound, False)
+    raise InternalError("depth-bounded search passed every depth without reaching a reachable goal")
