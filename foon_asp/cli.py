@@ -153,7 +153,7 @@ _seconds.__name__ = "number of seconds"
 _chance.__name__ = "chance between 0 and 1"
 
 
-def _open(options: argparse.Namespace, goals: str | None = None) -> tuple[Dataset, Domain]:
+def _open(options: argparse.Namespace) -> tuple[Dataset, Domain]:
     """Load the data and warn of what was lost in reading it or cannot be meant."""
     dataset = load(
         options.data,

@@ -61,7 +61,9 @@ def retrieve(
     problem = domain.problem([goal], founded=founded)
     deadline = None if time_limit is None else time.monotonic() + time_limit
     reason = unreachable_reason(problem)
-    status, tree, bound = "unreachable", None, {}
+    status = "unreachable"
+    tree: TaskTree | None = None
+    bound: dict[str, float] = {}
     if not reason:
         if method == "optimal":
             status, tree, bound = _optimal(problem, by, deadline)

@@ -72,7 +72,8 @@ def steps_text(tree: TaskTree) -> list[str]:
 
 def _step(domain: Domain, unit: FunctionalUnit, place: int, maker: dict[int, int]) -> list[str]:
     foon = domain.foon
-    things, tools = [], []
+    things: list[str] = []
+    tools: list[str] = []
     for number in unit.inputs:
         node = foon.objects[number]
         name = str(node) + (f" (step {maker[number]})" if number in maker else "")
