@@ -119,7 +119,6 @@ def _method_options(command: _Parser) -> None:
     )
     command.add_argument(
         "--by",
-        type=lambda text: tuple(part.strip() for part in text.split(",")),
         default=(),
         metavar="C1,C2,…",
         help="criteria: units, success, inputs, depth; for greedy success or inputs",

@@ -45,7 +45,7 @@ def retrieve(
     domain: Domain,
     goal: ObjectNode,
     method: str = "optimal",
-    by: Sequence[str] = (),
+    by: str | Sequence[str] = (),
     *,
     founded: bool = True,
     time_limit: float | None = None,
@@ -53,8 +53,9 @@ def retrieve(
     """Retrieve a task tree for a goal; every tree is replayed from the kitchen before it is returned.
 
     `by` names the criteria of `optimal`, the most important first (`units` by default), or the
-    heuristic of `greedy` (`success` by default). `founded=False` reads units as the published programs
-    do: the tree may go in circles. `time_limit` is in seconds. Raises `QueryError`.
+    heuristic of `greedy` (`success` by default); a text may hold several, with commas.
+    `founded=False` reads units as the published programs do: the tree may go in circles.
+    `time_limit` is in seconds. Raises `QueryError`.
     """
     started = time.perf_counter()
     by = check_method(method, by, founded)
@@ -91,8 +92,10 @@ def reach(domain: Domain) -> tuple[list[int], list[int]]:
     return available, executable
 
 
-def check_method(method: str, by: Sequence[str], founded: bool) -> tuple[str, ...]:
+def check_method(method: str, by: str | Sequence[str], founded: bool) -> tuple[str, ...]:
     """Return the criteria of a method, its default if none are named; raise `QueryError`."""
+    if isinstance(by, str):
+        by = [name.strip() for name in by.split(",")]
     choices = {"optimal": CRITERIA, "greedy": HEURISTICS, "ids": (), "first": ()}
     if method not in choices:
         raise QueryError(f"unknown method {method!r}; methods: {', '.join(METHODS)}")
@@ -200,7 +203,7 @@ def _optimal(
     first = solver.any_model() if deadline is not None else None
     answer = solver.best(deadline)
     if answer.atoms is None and first is not None:
-        answer = Answer(first.atoms, answer.proven, first.costs, answer.bounds)
+        answer = Answer(first.atoms, False, bounds=answer.bounds)
     if answer.atoms is None:
         return "unreachable", None, {}
     tree = decode_tree(problem, answer)
@@ -210,13 +213,13 @@ def _optimal(
 
 
 def _bound(criteria: Sequence[str], by: Sequence[str], answer: Answer) -> dict[str, float]:
-    bound: dict[str, float] = {}
-    # Before the solver has proven anything it is proven that no cost is negative.
-    bounds = answer.bounds or (0,) * len(criteria)
-    for name, cost, lower in zip(criteria, answer.costs, bounds, strict=True):
-        if name in by and lower < cost:
-            bound[name] = success_chance(lower) if name == "success" else lower
-    return bound
+    """Return what no tree can beat. A criterion not yet looked at costs at least nothing."""
+    bounds = (*answer.bounds, *(0 for _ in criteria))
+    return {
+        name: success_chance(lower) if name == "success" else lower
+        for name, lower in zip(criteria, bounds, strict=False)
+        if name in by
+    }
 
 
 def _horizon(problem: Problem, by: tuple[str, ...], deadline: float | None) -> int:

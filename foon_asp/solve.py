@@ -91,9 +91,9 @@ class Solver:
         if not found:
             return Answer(None, bool(result.exhausted), bounds=lower)
         atoms, costs = found[0]
-        if result.exhausted:
-            lower = costs
-        return Answer(atoms, bool(result.exhausted), costs, lower)
+        # Where there is nothing to pay the first model is a best one, and clingo looks no further.
+        proven = bool(result.exhausted) or not costs
+        return Answer(atoms, proven, costs, costs if proven else lower)
 
 
 def _atoms(model: clingo.Model) -> tuple[Atom, ...]:

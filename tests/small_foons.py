@@ -1,0 +1,149 @@
+"""Small FOONs: written in a few words for tables, or drawn at random for properties.
+
+An object is written `label[state,state]{content,content}@container`. A label alone stands for an object
+in the state "ready"; `(label)` is bare, it has no state at all. A unit is written `a + b -mix-> c`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+
+from hypothesis import strategies as st
+
+from foon_asp.graph import Annotation, Foon, FoonBuilder, ObjectNode, State, contains, inside
+from foon_asp.kitchen import Kitchen
+from foon_asp.problem import Domain
+
+_OBJECT = re.compile(
+    r"(?P<label>[\w ]+)(?:\[(?P<states>[^]]*)\])?(?:\{(?P<contents>[^}]*)\})?(?:@(?P<container>\w+))?"
+)
+_UNIT = re.compile(r"(?P<inputs>.*)-(?P<motion>\w+)->(?P<outputs>.*)")
+
+
+def node(text: str) -> ObjectNode:
+    """Read one object."""
+    text = text.strip()
+    if text.startswith("("):
+        return ObjectNode.of(text.strip("()"))
+    match = _OBJECT.fullmatch(text)
+    assert match, text
+    states = [State(name) for name in (match["states"] or "").split(",") if name]
+    if match["contents"] is not None:
+        states.append(contains(*(content for content in match["contents"].split(",") if content)))
+    if match["container"]:
+        states.append(inside(match["container"]))
+    return ObjectNode.of(match["label"].strip(), states or [State("ready")])
+
+
+def written(thing: ObjectNode) -> str:
+    """Write an object as `node` reads it."""
+    if thing.bare:
+        return f"({thing.label})"
+    if thing.states == (State("ready"),):
+        return thing.label
+    text = thing.label
+    if thing.plain_states:
+        text += "[" + ",".join(thing.plain_states) + "]"
+    if any(state.contents is not None for state in thing.states):
+        text += "{" + ",".join(thing.contents) + "}"
+    return text + "".join(f"@{container}" for container in thing.containers)
+
+
+def nodes(text: str) -> list[ObjectNode]:
+    """Read objects with `+` between them; nothing at all is no object."""
+    return [node(part) for part in text.split("+") if part.strip()]
+
+
+def foon(*units: str) -> Foon:
+    builder = FoonBuilder()
+    for text in units:
+        match = _UNIT.fullmatch(text)
+        assert match, text
+        builder.unit(
+            match["motion"],
+            [builder.object(thing) for thing in nodes(match["inputs"])],
+            [builder.object(thing) for thing in nodes(match["outputs"])],
+            Annotation(),
+        )
+    return builder.build()
+
+
+def domain(
+    units: Iterable[str],
+    kitchen: str = "",
+    *,
+    utensils: Iterable[str] = (),
+    rates: Mapping[str, float] | None = None,
+    strict: bool = False,
+) -> Domain:
+    """Make a domain of written units and a written kitchen; motions without a rate never fail."""
+    stock = Kitchen(tuple(nodes(kitchen)), frozenset(utensils), dict(rates or {}), 1.0)
+    return Domain(foon(*units), stock, strict=strict)
+
+
+def motions(where: Domain, units: Iterable[int]) -> set[str]:
+    """Name units by their motions."""
+    return {where.foon.units[unit].motion for unit in units}
+
+
+MOTIONS = ("cut", "fry", "mix", "pour", "wash")
+RATES = (1.0, 0.97, 0.83, 0.71, 0.5)
+"""No product of eight of them comes near another product, so rounding cannot turn an order round."""
+
+_VESSEL_VIEWS = ("bowl{onion}", "onion@bowl", "cup{water}", "water@cup")
+_OBJECTS = (
+    "onion[whole]",
+    "onion[chopped]",
+    "soup",
+    "salt",
+    "water[hot]",
+    "(knife)",
+    "(bowl)",
+    "bowl[empty]",
+    *_VESSEL_VIEWS,
+    "onion[chopped]@bowl",
+    "onion@cup",
+    "salt@bowl",
+    "bowl{onion,salt}",
+    "bowl[dirty]{onion}",
+    "cup{onion}",
+    "cup{}",
+    "jar{onion}",
+)
+
+
+@st.composite
+def domains(draw: st.DrawFn, *, strict: bool | None = None, rates: tuple[float, ...] = RATES) -> Domain:
+    """Draw a domain of 2-7 objects and 1-8 units, strict or not unless that is given."""
+    seeds = draw(st.sampled_from([(), _VESSEL_VIEWS[:2], _VESSEL_VIEWS]))
+    more = draw(st.lists(st.sampled_from(_OBJECTS), min_size=2, max_size=7, unique=True))
+    pool = [node(text) for text in dict.fromkeys((*seeds, *more))][:7]
+    builder = FoonBuilder()
+    for thing in pool:
+        builder.object(thing)
+    ids = st.sampled_from(range(len(pool)))
+    inputs = st.lists(ids, max_size=4, unique=True)
+    outputs = st.lists(ids, min_size=1, max_size=3, unique=True)
+    drawn = st.lists(st.tuples(st.sampled_from(MOTIONS), inputs, outputs), min_size=1, max_size=8)
+    for motion, before, behind in draw(drawn):
+        builder.unit(motion, before, behind, Annotation())
+    stock = draw(st.lists(st.sampled_from([*pool, node("stranger")]), max_size=3, unique=True))
+    kitchen = Kitchen(
+        tuple(stock),
+        frozenset(draw(st.sampled_from([("bowl", "cup"), ("bowl",), ()]))),
+        {motion: draw(st.sampled_from(rates)) for motion in MOTIONS},
+    )
+    return Domain(builder.build(), kitchen, strict=draw(st.booleans()) if strict is None else strict)
+
+
+@st.composite
+def queries(
+    draw: st.DrawFn, *, strict: bool | None = None, rates: tuple[float, ...] = RATES
+) -> tuple[Domain, ObjectNode]:
+    """Draw a domain and a goal: more often something that a unit makes than just any object."""
+    where = draw(domains(strict=strict, rates=rates))
+    made = [where.foon.objects[number] for unit in where.foon.units for number in unit.outputs]
+    wanted = [thing for thing in made if not thing.bare and thing not in where.kitchen.objects]
+    goals = wanted * 3 + list(where.foon.objects)
+    return where, draw(st.sampled_from(goals))

@@ -1,0 +1,156 @@
+"""Reading and writing FOON text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from foon_asp.dataset import Dataset, read_foon
+from foon_asp.errors import InputError
+from foon_asp.findings import Finding
+from foon_asp.graph import Foon, FoonBuilder, ObjectNode, State, contains, inside
+from foon_asp.text import TextReader, write_text
+
+UNIT_B = "//\nO\tonion\nS\twhole\nO\tknife\nM\tchop\nO\tonion\nS\tchopped\nO\tknife\n//\n"
+UNIT_A = (
+    "# Source:\thttp://one\r\n//\r\nO296\tOlive Oil \t1\r\nS65\tin\t[Bottle]\r\nO46\tbowl\t0\r\n"
+    "S41\tempty\r\nM54\tpour*\t1:02\t0:01:10\trobot\t0.9\r\nO46\tbowl\t0\t8\r\n"
+    "S23\tcontains\t{olive oil}\r\n//\r\n"
+)
+
+
+def read(text: str) -> tuple[Foon, list[Finding]]:
+    builder = FoonBuilder()
+    reader = TextReader(builder)
+    reader.read(text, "x.txt")
+    return builder.build(), reader.findings
+
+
+def codes(text: str) -> list[tuple[str, int]]:
+    return [(f.code, f.line) for f in read(text)[1] if f.code != "empty-unit"]
+
+
+def test_course_dialect() -> None:
+    foon, findings = read(UNIT_B)
+    [unit] = foon.units
+    assert [str(foon.objects[number]) for number in unit.inputs] == ["onion [whole]", "knife"]
+    assert [str(foon.objects[number]) for number in unit.outputs] == ["onion [chopped]", "knife"]
+    assert unit.motion == "chop"
+    assert (unit.source.file, unit.source.line) == ("x.txt", 2)
+    assert [f.code for f in findings] == ["empty-unit"]
+
+
+def test_annotated_dialect_keeps_what_the_annotator_said() -> None:
+    foon, _ = read(UNIT_A)
+    [unit] = foon.units
+    note = unit.annotation
+    assert foon.objects[unit.inputs[0]] == ObjectNode.of("olive oil", [inside("bottle")])
+    assert foon.objects[unit.outputs[0]] == ObjectNode.of("bowl", [contains("olive oil")])
+    assert (unit.motion, note.composite) == ("pour", True)
+    assert (note.start, note.end, note.agent, note.rate) == (62.0, 70.0, "robot", 0.9)
+    assert [mark.moves for mark in note.marks] == [True, False, False]
+    assert note.marks[2].goal == "8"
+    assert unit.source.video == "http://one"
+    assert foon.marked_goals() == [foon.objects[unit.outputs[0]]]
+
+
+def test_identity_is_label_and_set_of_states() -> None:
+    foon, _ = read("O\tbowl\nS\thot\nS\tcontains\t{b,a}\nM\tstir\nO\tbowl\nS\tcontains\t{a,b}\nS\thot\n//\n")
+    assert len(foon.objects) == 1
+    assert foon.objects[0] == ObjectNode.of("bowl", [State("hot"), contains("a", "b")])
+
+
+def test_duplicate_units_are_merged_and_keep_both_places() -> None:
+    foon, _ = read(UNIT_B + UNIT_B.replace("O\tknife\nM", "M").replace("S\twhole", "S\twhole\nO\tknife"))
+    [unit] = foon.units
+    assert foon.duplicates == 1
+    assert [source.line for source in unit.annotation.sources] == [2, 11]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("O\ta\nM\tx\nO\tb\nS\ts", [("unit-not-closed", 4)]),
+        ("O\ta\nO\tb\n//\n", [("unit-without-motion", 1)]),
+        ("O\ta\nM\tx\n//\n", [("unit-without-outputs", 1)]),
+        ("O\ta\nM\tx\nO\tb\nM\ty\nO\tc\n//\n", [("two-motions", 4)]),
+        ("O\ta\t00\nM\tx\nO\tb\n//\n", [("odd-flag", 1)]),
+        ("O\ta\nS\tcontains\t[x]\nM\tx\nO\tb\n//\n", [("contains-in-brackets", 2)]),
+        ("O\ta\nS\tcontains\nM\tx\nO\tb\n//\n", [("contains-without-braces", 2)]),
+        ("O\ta\nS\tin\t{cup}\nM\tx\nO\tb\n//\n", [("place-in-braces", 2)]),
+        ("O\ta\nS\ton\t[]\nM\tx\nO\tb\n//\n", [("empty-brackets", 2)]),
+        ("O\ta\nS\tin\t[a,b]\nM\tx\nO\tb\n//\n", [("comma-in-brackets", 2)]),
+        ("O\ta\nS\tcontains\t{x,}\nM\tx\nO\tb\n//\n", [("stray-comma", 2)]),
+        ("O\ta\nS\tcontains\t{x, y}\nM\tx\nO\tb\n//\n", [("space-in-braces", 2)]),
+        ("O\ta\nS\tcontains\t{x,x}\nM\tx\nO\tb\n//\n", [("duplicate-content", 2)]),
+        ("O\ta\nS\tunder [pan]\nM\tx\nO\tb\n//\n", [("missing-tab", 2)]),
+        ("O\ta\nO\ta\nM\tx\nO\tb\n//\n", [("duplicate-input", 1)]),
+        ("O\ta\nM\tx\t1:16\t1:05\nO\tb\n//\n", [("times-backwards", 2)]),
+        ("O\ta\nM\tx\t3:0s7\t4:00\nO\tb\n//\n", [("broken-time", 2)]),
+        ("O\ta\nM\tx\tAssumed\tassume\nO\tb\n//\n", []),
+        ("O\ta\nM\tx\t<1:00-1:10>\nO\tb\n//\n", []),
+        ("O\ta\n\nM\tx\nO\tb\n//\n", [("blank-line", 2)]),
+        ("O\ta\nhello\nM\tx\nO\tb\n//\n", [("unreadable-line", 2)]),
+        ("O\ta\nM\tx\nS\thot\nO\tb\n//\n", [("state-of-motion", 3)]),
+        ("\ufeffO\ta\nM\tx\nO\tb\n//\n", [("byte-order-mark", 1)]),
+        ("O\t\nM\tx\nO\tb\n//\n", [("object-without-label", 1)]),
+        ("O\ta\nM\t*\nO\tb\n//\n", [("motion-without-label", 2)]),
+    ],
+)
+def test_oddities_are_found_where_they_stand(text: str, expected: list[tuple[str, int]]) -> None:
+    assert codes(text) == expected
+
+
+def test_lines_are_counted_across_units() -> None:
+    text = "# one\n# two\n//\n" + UNIT_B.removeprefix("//\n") * 3 + "O\tx\nhello\nM\ty\nO\tz\n//\n"
+    assert ("unreadable-line", 29) in codes(text)
+
+
+def test_words_in_a_text_are_not_taken_for_objects() -> None:
+    with pytest.raises(InputError, match=r"prose\.txt:1: not a FOON file: cannot read 'Once upon"):
+        _read_file("prose.txt", "Once upon a time\nMother said: Salt!\n")
+
+
+def _read_file(name: str, text: str) -> Foon:
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        path.write_text(text)
+        return read_foon([path])[0]
+
+
+def test_an_empty_file_is_an_empty_foon() -> None:
+    with pytest.raises(InputError, match="an empty FOON"):
+        _read_file("FOON.txt", "")
+
+
+def test_built_in_data_survives_writing(built_in: Dataset) -> None:
+    again, _ = read(write_text(built_in.foon, built_in.foon.units))
+    assert _meaning(again) == _meaning(built_in.foon)
+
+
+def _meaning(foon: Foon) -> list[tuple[list[ObjectNode], str, list[ObjectNode]]]:
+    return [
+        (
+            [foon.objects[number] for number in unit.inputs],
+            unit.motion,
+            [foon.objects[number] for number in unit.outputs],
+        )
+        for unit in foon.units
+    ]
+
+
+def test_universal_foon_survives_writing(universal: Dataset) -> None:
+    again, _ = read(write_text(universal.foon, universal.foon.units))
+    assert _meaning(again) == _meaning(universal.foon)
+
+
+def test_subgraphs_merge_into_a_universal_foon(public_data: Path) -> None:
+    foon, findings = read_foon(sorted((public_data / "subgraphs").glob("*.txt")))
+    read_units = len(foon.units) + foon.duplicates
+    motions = sum(path.read_text().count("\nM") for path in (public_data / "subgraphs").glob("*.txt"))
+    assert read_units == motions
+    assert [f.code for f in findings].count("unit-without-motion") == 1
+    assert len(foon.marked_goals()) == 56
