@@ -83,7 +83,7 @@ def reach(domain: Domain) -> tuple[list[int], list[int]]:
     Raises `InternalError` if the plain graph search does not agree.
     """
     problem = Problem(domain, (), whole=True)
-    answer = _solver(problem, ["reachability.lp"], {}).best(None)
+    answer = _solver(problem, ["reachability.lp"], {}).best()
     available, executable = column(answer, "available"), column(answer, "executable")
     if domain.closure.available.keys() != set(available):
         raise InternalError("reachability.lp and the graph search disagree on what is available")
@@ -200,10 +200,7 @@ def _optimal(
         ),
         rates_required="success" in by,
     )
-    first = solver.any_model() if deadline is not None else None
     answer = solver.best(deadline)
-    if answer.atoms is None and first is not None:
-        answer = Answer(first.atoms, False, bounds=answer.bounds)
     if answer.atoms is None:
         return "unreachable", None, {}
     tree = decode_tree(problem, answer)
@@ -249,7 +246,7 @@ def _greedy(problem: Problem, heuristic: str, deadline: float | None) -> tuple[s
         )
         answer = solver.best(deadline)
         if answer.atoms is None:
-            return ("limit" if not answer.proven else "unreachable"), None
+            return "unreachable", None
         if not answer.proven:
             return "limit", decode_tree(problem, answer)
         if not column(answer, "beyond"):
@@ -264,8 +261,8 @@ def _ids(problem: Problem) -> TaskTree:
             solver.ground("step", bound)
         solver.ground("check", bound)
         solver.switch("bound", bound, True)
-        if solver.best(None).atoms is not None:
+        if solver.best().atoms is not None:
             solver.ground("choose", bound)
-            return decode_tree(problem, solver.best(None))
+            return decode_tree(problem, solver.best())
         solver.switch("bound", bound, False)
     raise InternalError("depth-bounded search passed every depth without reaching a reachable goal")

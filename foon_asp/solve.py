@@ -62,16 +62,26 @@ class Solver:
         """Set the external atom `external(number)`."""
         self._control.assign_external(clingo.Function(external, [clingo.Number(number)]), value)
 
-    def any_model(self) -> Answer:
-        """Return a first model, whatever it costs."""
+    def best(self, deadline: float | None = None) -> Answer:
+        """Return the best model, or the best found until the deadline (`time.monotonic()` seconds).
+
+        With a deadline a first model is taken before, whatever it costs and however long it takes: core-
+        guided optimisation may prove bounds for long before it has a model.
+        """
+        if deadline is None:
+            return self._solve(None)
         configuration: Any = self._control.configuration
         configuration.solve.opt_mode = "ignore"
-        answer = self.best(None)
+        first = self._solve(None)
         configuration.solve.opt_mode = "opt"
+        if first.atoms is None:
+            return first
+        answer = self._solve(deadline)
+        if answer.atoms is None:
+            return Answer(first.atoms, False, bounds=answer.bounds)
         return answer
 
-    def best(self, deadline: float | None) -> Answer:
-        """Return the best model, or the best found until the deadline (`time.monotonic()` seconds)."""
+    def _solve(self, deadline: float | None) -> Answer:
         found: list[tuple[tuple[Atom, ...], tuple[int, ...]]] = []
         bounds: list[tuple[int, ...]] = []
 

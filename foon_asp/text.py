@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from foon_asp.findings import Finding, Severity
 from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, Mark, ObjectNode, Source, State
-from foon_asp.state_syntax import make_state, parse_state
+from foon_asp.state_syntax import Report, make_state, parse_state
 
 _END_OF_UNIT = re.compile(r"^//.*\n?", re.MULTILINE)
 _START = r"(?:[OM]\d*(?:[\t ]|$)|#)"
@@ -65,14 +65,19 @@ class _Unit:
     broken: bool = False
 
 
+_StateLine = tuple[State | None, tuple[tuple[str, str], ...]]
+"""An `S` line once read: the state, if it says one, and what is odd in it (code, message)."""
+
+
 class TextReader:
-    """Reads text files into one builder. Objects recur, so each distinct block is read only once."""
+    """Reads text files into one builder. Blocks and state lines recur, so each is read only once."""
 
     def __init__(self, builder: FoonBuilder) -> None:
         self.findings: list[Finding] = []
         self.reported_units = 0
         self._builder = builder
         self._blocks: dict[str, _Block] = {}
+        self._states: dict[str, _StateLine] = {}
         self._file = ""
         self._video = ""
 
@@ -166,7 +171,11 @@ class TextReader:
         mark = _read_mark(fields[1:], oddities)
         states: list[State] = []
         for offset, row in enumerate(lines[1:], 1):
-            state = _read_state(row, offset, oddities)
+            known = self._states.get(row)
+            if known is None:
+                known = self._states[row] = _read_state(row)
+            state, odd = known
+            oddities += [(offset, code, message) for code, message in odd]
             if state is not None:
                 if state in states:
                     oddities.append((offset, "duplicate-state", f"{str(state)!r} is said twice"))
@@ -284,12 +293,18 @@ def _read_mark(fields: list[str], oddities: list[tuple[int, str, str]]) -> Mark:
     return Mark(moves, goal)
 
 
-def _read_state(row: str, offset: int, oddities: list[tuple[int, str, str]]) -> State | None:
-    """Read an `S` line of an object, noting what is odd; None if it says nothing."""
+def _read_state(row: str) -> _StateLine:
+    """Read an `S` line of an object."""
+    odd: list[tuple[str, str]] = []
 
     def report(code: str, message: str) -> None:
-        oddities.append((offset, code, message))
+        odd.append((code, message))
 
+    state = _state_of(row, report)
+    return state, tuple(odd)
+
+
+def _state_of(row: str, report: Report) -> State | None:
     if not row.strip():
         report("blank-line", "a blank line")
         return None

@@ -1,0 +1,244 @@
+"""Properties that hold of every small FOON: encodings, plain search and brute force agree."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isclose
+
+import brute_force
+import paper_pseudocode
+import pytest
+from hypothesis import HealthCheck, event, given, settings
+from small_foons import domains, queries
+
+from foon_asp.facts import facts
+from foon_asp.graph import ObjectNode
+from foon_asp.problem import Domain, Problem
+from foon_asp.retrieve import reach, retrieve
+from foon_asp.solve import Answer, Solver
+from foon_asp.tree import TaskTree
+
+Query = tuple[Domain, ObjectNode]
+
+
+def many(examples: int) -> settings:
+    return settings(
+        deadline=None,
+        max_examples=examples,
+        derandomize=True,
+        suppress_health_check=[HealthCheck.too_slow],
+    )
+
+
+def own_costs(domain: Domain, goal: ObjectNode, tree: TaskTree) -> brute_force.Costs:
+    """Return what brute force says that a tree costs; it must be one."""
+    assert brute_force.replays(domain, goal, tree.units)
+    found = brute_force.costs(domain, goal, tree.units)
+    assert found is not None
+    return found
+
+
+def same(name: str, one: brute_force.Costs, other: brute_force.Costs) -> bool:
+    """Compare by a criterion; chances only as exactly as their rounded logarithms are."""
+    return one[name] == other[name] or (
+        name == "success" and isclose(float(one[name]), float(other[name]), rel_tol=1e-4)
+    )
+
+
+@many(150)
+@given(domains())
+def test_units_lp_reads_units_as_the_plain_reading_and_the_definition_do(domain: Domain) -> None:
+    constants: dict[str, str | int] = {"strict": int(domain.strict)}
+    text = facts(Problem(domain, (), whole=True)) + "#show needs/2. #show makes/2."
+    answer = Solver(["units.lp"], text, constants).best(None)
+    assert answer.atoms is not None
+    for unit in domain.foon.units:
+        needs, makes = (
+            {atom[1][1] for atom in answer.atoms if atom[0] == name and atom[1][0] == unit.id}
+            for name in ("needs", "makes")
+        )
+        assert needs == set(domain.reading.needs[unit.id])
+        assert makes == set(domain.reading.makes[unit.id])
+        assert {domain.node(thing) for thing in needs} == brute_force.needs(domain, unit)
+        assert {domain.node(thing) for thing in makes} == brute_force.makes(domain, unit)
+
+
+@many(150)
+@given(domains())
+def test_reachability_is_the_plain_closure(domain: Domain) -> None:
+    available, executable = reach(domain)
+    at_hand, done = brute_force.closure(domain, range(len(domain.foon.units)))
+    assert set(available) == domain.closure.available.keys()
+    assert set(executable) == domain.closure.executable.keys() == done
+    rounds = {domain.node(thing): turn for thing, turn in domain.closure.available.items()}
+    assert rounds == at_hand
+
+
+def solve_optimally(problem: Problem, by: Sequence[str]) -> Answer:
+    asked = "".join(f'criterion("{name}",{-place}).' for place, name in enumerate(by))
+    constants: dict[str, str | int] = {
+        "founded": int(problem.founded),
+        "strict": int(problem.domain.strict),
+        "horizon": len(problem.domain.foon.units),
+    }
+    encodings = ["task_tree.lp", *(f"criteria/{name}.lp" for name in by)]
+    if "depth" not in by:
+        del constants["horizon"]
+    return Solver(encodings, facts(problem) + asked, constants).best(None)
+
+
+@many(60)
+@given(queries())
+def test_slicing_does_not_change_the_optimum(query: Query) -> None:
+    domain, goal = query
+    for founded, by in (
+        (True, ["units"]),
+        (True, ["success", "inputs"]),
+        (True, ["depth", "units"]),
+        (False, ["units"]),
+        (False, ["inputs", "success"]),
+    ):
+        whole, sliced = (
+            solve_optimally(Problem(domain, (domain.id_of(goal),), founded=founded, whole=whole), by)
+            for whole in (True, False)
+        )
+        assert (whole.atoms is None) == (sliced.atoms is None)
+        assert whole.proven
+        assert sliced.proven
+        # A slice may have nothing left to pay for, not even nothing by each criterion.
+        assert whole.costs == (sliced.costs or (0,) * len(whole.costs))
+
+
+LEXICOGRAPHIC = [
+    ("units",),
+    ("success",),
+    ("inputs",),
+    ("depth",),
+    ("units", "success"),
+    ("success", "units"),
+    ("inputs", "depth"),
+    ("depth", "inputs"),
+    ("units", "depth"),
+    ("success", "depth", "inputs"),
+    ("depth", "units", "inputs", "success"),
+    ("inputs", "success", "units", "depth"),
+]
+
+
+@pytest.mark.parametrize("by", LEXICOGRAPHIC, ids=",".join)
+@many(60)
+@given(query=queries())
+def test_the_optimum_is_that_of_brute_force(by: tuple[str, ...], query: Query) -> None:
+    domain, goal = query
+    result = retrieve(domain, goal, "optimal", by)
+    trees = brute_force.trees(domain, goal)
+    if not trees:
+        assert result.status == "unreachable"
+        assert result.tree is None
+        assert result.reason
+        return
+    assert result.status == "optimal"
+    assert result.tree is not None
+    found = own_costs(domain, goal, result.tree)
+    # What is left open by the criteria goes to the fewest units.
+    criteria = (*by, "units")
+    expected = brute_force.best(trees, criteria)
+    event(f"{expected['units']} units")
+    for name in criteria:
+        assert same(name, found, expected), (name, found, expected)
+
+
+@pytest.mark.parametrize("by", LEXICOGRAPHIC, ids=",".join)
+@many(30)
+@given(query=queries())
+def test_a_time_limit_never_makes_a_claim_false(by: tuple[str, ...], query: Query) -> None:
+    domain, goal = query
+    result = retrieve(domain, goal, "optimal", by, time_limit=0)
+    trees = brute_force.trees(domain, goal)
+    event(result.status)
+    assert (result.status == "unreachable") == (not trees)
+    if result.tree is None:
+        return
+    found = own_costs(domain, goal, result.tree)
+    if result.status == "optimal":
+        expected = brute_force.best(trees, by)
+        assert all(same(name, found, expected) for name in by)
+    else:
+        assert result.status == "limit"
+        for name, bound in result.bound.items():
+            unbeaten = float(brute_force.best(trees, (name,))[name])
+            assert bound >= unbeaten * 0.9999 if name == "success" else bound <= unbeaten
+
+
+@many(60)
+@given(queries(rates=(0.0, 0.5, 0.001)))
+def test_the_most_likely_tree_is_found_though_some_motions_never_succeed(query: Query) -> None:
+    domain, goal = query
+    result = retrieve(domain, goal, "optimal", ("success",))
+    trees = brute_force.trees(domain, goal)
+    assert result.status == ("optimal" if trees else "unreachable")
+    if result.tree is not None:
+        expected = brute_force.best(trees, ("success",))
+        assert same("success", own_costs(domain, goal, result.tree), expected)
+
+
+METHODS = [
+    ("first", ()),
+    ("ids", ()),
+    ("greedy", ("success",)),
+    ("greedy", ("inputs",)),
+    ("optimal", ("units",)),
+]
+
+
+@pytest.mark.parametrize(("method", "by"), METHODS, ids=lambda part: part if part else "-")
+@many(60)
+@given(query=queries())
+def test_every_founded_tree_replays_and_knows_its_costs(
+    method: str, by: tuple[str, ...], query: Query
+) -> None:
+    domain, goal = query
+    result = retrieve(domain, goal, method, by)
+    at_hand, _ = brute_force.closure(domain, range(len(domain.foon.units)))
+    if goal not in at_hand:
+        assert result.status == "unreachable"
+        assert result.tree is None
+        return
+    assert result.status == ("optimal" if method == "optimal" else "found")
+    assert result.tree is not None
+    assert result.tree.executable
+    said, found = result.tree.costs, own_costs(domain, goal, result.tree)
+    assert (said.units, said.inputs, said.depth) == (found["units"], found["inputs"], found["depth"])
+    assert said.success is not None
+    assert isclose(said.success, float(found["success"]))
+
+
+@many(100)
+@given(queries())
+def test_ids_stops_at_the_least_depth(query: Query) -> None:
+    domain, goal = query
+    tree = retrieve(domain, goal, "ids").tree
+    trees = brute_force.trees(domain, goal)
+    assert (tree is None) == (not trees)
+    if tree is not None:
+        assert tree.depth == own_costs(domain, goal, tree)["depth"] == min(each["depth"] for each in trees)
+
+
+@pytest.mark.parametrize("heuristic", ["first", "success", "inputs"])
+@many(150)
+@given(query=queries(strict=False))
+def test_without_foundedness_the_units_are_those_of_the_published_program(
+    heuristic: str, query: Query
+) -> None:
+    domain, goal = query
+    method, by = ("first", ()) if heuristic == "first" else ("greedy", (heuristic,))
+    result = retrieve(domain, goal, method, by, founded=False)
+    expected = paper_pseudocode.retrieve(domain, goal, heuristic)
+    event(f"{len(expected)} units")
+    if result.tree is None:
+        assert result.status == "unreachable"
+        assert not expected
+        return
+    assert result.status == "found"
+    assert set(result.tree.units) == set(expected)
+    assert len(expected) == len(set(expected))
