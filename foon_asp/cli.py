@@ -9,6 +9,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 from typing import NoReturn
 
@@ -19,6 +20,9 @@ from foon_asp.findings import Severity
 from foon_asp.goals import find_goal
 from foon_asp.graph import ObjectNode
 from foon_asp.problem import Domain, Problem
+
+_SHOWN = 3
+"""How many warnings of one kind are written out."""
 
 FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
 
@@ -57,6 +61,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Task trees from functional object-oriented networks: proven, checked, explained.",
         epilog="exit status: 0 found, 1 no task tree exists, 2 bad input or usage, 3 a limit was hit",
     )
+    parser.add_argument("--version", action="version", version=f"foon-asp {version('foon-asp')}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
 
     retrieve = _command(commands, "retrieve", _retrieve, "retrieve a task tree for a goal")
@@ -70,7 +75,9 @@ def _parser() -> argparse.ArgumentParser:
     reach.add_argument("--list", action="store_true", help="name everything that can be made")
     _format_option(reach, "text", "json")
 
-    compare = _command(commands, "compare", _compare, "compare all methods, the paper's table")
+    compare = _command(
+        commands, "compare", _compare, "compare all methods, reference and founded, with the proven optimum"
+    )
     compare.add_argument("goal", nargs="*", metavar="GOAL", help=_GOAL_HELP)
     compare.add_argument("--goals", metavar="FILE", help="goals as a JSON list")
     compare.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds for each tree")
@@ -164,10 +171,14 @@ def _open(options: argparse.Namespace) -> tuple[Dataset, Domain]:
     )
     for finding in dataset.findings:
         if finding.severity is Severity.ERROR:
-            _warn(f"{finding}")
+            _warn(f"{finding.file}:{finding.line}: {finding.message}")
     domain = dataset.domain(strict=options.strict)
-    for node in domain.strangers:
+    for node in domain.strangers[:_SHOWN]:
         _warn(f"the kitchen has {node}, which the FOON does not know{_nearest(domain, node)}")
+    if len(domain.strangers) > _SHOWN:
+        _warn(f"and {len(domain.strangers) - _SHOWN} more objects that the FOON does not know")
+    if not dataset.kitchen.objects:
+        _warn("the kitchen is empty, nothing is at hand; name one with --kitchen")
     return dataset, domain
 
 
@@ -275,7 +286,7 @@ def _compare(options: argparse.Namespace) -> int:
         sys.stdout.write(render_json.dumps(render_json.comparison_value(rows)))
     else:
         sys.stdout.write(comparison_text(rows))
-    return FOUND
+    return LIMIT if any(row.cells["optimal"].proven is False for row in rows) else FOUND
 
 
 def _facts(options: argparse.Namespace) -> int:

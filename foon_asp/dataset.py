@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from foon_asp.errors import InputError
-from foon_asp.files import read_objects, read_rates, read_string, read_utensils
-from foon_asp.findings import Finding, Severity
-from foon_asp.graph import Foon, FoonBuilder, ObjectNode
+from foon_asp.files import read_objects, read_rates, read_utensils
+from foon_asp.findings import Finding
+from foon_asp.graph import Foon, ObjectNode
 from foon_asp.kitchen import Kitchen
+from foon_asp.open_foon import FoonFiles, FoonReader
 from foon_asp.problem import Domain
 from foon_asp.resources import built_in_data
-from foon_asp.text import TextReader
 
 _BESIDE_A_FOON = frozenset({"motion.txt", "utensils.txt"})
 
@@ -32,31 +32,20 @@ class Dataset:
         return Domain(self.foon, self.kitchen, strict=strict)
 
 
-def read_foon(paths: Sequence[Path]) -> tuple[Foon, list[Finding]]:
-    """Read FOON files and merge them, duplicate units removed; also return what is odd in them.
+def read_foon(paths: Sequence[Path], strict: bool = False) -> FoonFiles:
+    """Read FOON files, text or JSON, and merge them, duplicate units removed.
 
-    Raises `InputError` if a file cannot be read as a FOON or no functional unit is in any of them.
+    With `strict` anything odd is an error. Raises `InputError` if a file cannot be read as a FOON or no
+    functional unit is in any of them.
     """
-    builder = FoonBuilder()
-    reader = TextReader(builder)
+    reader = FoonReader(strict=strict)
     for path in paths:
-        before = builder.read + reader.reported_units
-        places = len(reader.findings)
-        reader.read(read_string(path), str(path))
-        if builder.read + reader.reported_units == before:
-            unreadable = [f for f in reader.findings[places:] if f.severity is Severity.ERROR]
-            if unreadable:
-                raise InputError(
-                    path,
-                    unreadable[0].line,
-                    f"not a FOON file: {unreadable[0].message}",
-                    "a unit is O and S lines, an M line, O and S lines, and '//'",
-                )
-    foon = builder.build()
-    if not foon.units:
+        reader.read(path)
+    files = reader.finish()
+    if not files.foon.units:
         first = paths[0] if paths else "no file"
         raise InputError(first, None, "an empty FOON: no functional unit", "name a FOON file")
-    return foon, reader.findings
+    return files
 
 
 def foon_files(folder: Path) -> list[Path]:
@@ -89,13 +78,13 @@ def load(
     foon_paths = [Path(path) for path in foon] or foon_files(root)
     if not foon_paths:
         raise InputError(root, None, "no FOON.txt and no other *.txt", "name FOON files with --foon")
-    graph, findings = read_foon(foon_paths)
+    files = read_foon(foon_paths)
     kitchen_path = _choose(kitchen, root / "kitchen.json")
     rates_path = _choose(rates, root / "motion.txt")
     utensils_path = _choose(utensils, root / "utensils.txt")
     goals_path = _choose(goals, root / "goal_nodes.json")
     return Dataset(
-        foon=graph,
+        foon=files.foon,
         kitchen=Kitchen(
             objects=tuple(read_objects(kitchen_path)) if kitchen_path else (),
             utensils=read_utensils(utensils_path) if utensils_path else frozenset(),
@@ -103,7 +92,7 @@ def load(
             default_rate=default_rate,
         ),
         goals=tuple(read_objects(goals_path)) if goals_path else (),
-        findings=tuple(findings),
+        findings=files.findings,
     )
 
 

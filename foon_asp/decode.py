@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from foon_asp.errors import InternalError
 from foon_asp.problem import Problem
-from foon_asp.solve import Answer
+from foon_asp.solve import Answer, Value
 from foon_asp.tree import TaskTree
 
 
 def decode_tree(problem: Problem, answer: Answer) -> TaskTree:
-    """Return the task tree of a model, replayed.
+    """Return the task tree of a model that there is, replayed.
 
     Raises `InternalError` if a founded tree cannot be executed: then an encoding is wrong.
     """
@@ -22,4 +22,9 @@ def decode_tree(problem: Problem, answer: Answer) -> TaskTree:
 
 def column(answer: Answer, predicate: str) -> list[int]:
     """Return the first arguments of a predicate in the model, sorted, each once."""
-    return sorted({arguments[0] for name, arguments in answer.atoms or () if name == predicate})
+    return sorted({ids[0] for ids in rows(answer, predicate) if isinstance(ids[0], int)})
+
+
+def rows(answer: Answer, predicate: str) -> list[tuple[Value, ...]]:
+    """Return the arguments of each atom of a predicate in the model, in clingo's order of terms."""
+    return [arguments for name, arguments in answer.atoms or () if name == predicate]

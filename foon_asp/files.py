@@ -9,7 +9,7 @@ from typing import Any
 
 from foon_asp.errors import InputError
 from foon_asp.graph import ObjectNode, State, contains, inside
-from foon_asp.state_syntax import parse_state
+from foon_asp.state_syntax import Report, clean, parse_state, quiet, read_contents, read_relatum
 
 
 def read_bytes(path: Path) -> bytes:
@@ -22,6 +22,9 @@ def read_bytes(path: Path) -> bytes:
         raise InputError(path, None, "this is a folder", "name a file in it") from None
     except OSError as error:
         raise InputError(path, None, f"cannot be read ({error.strerror})") from None
+    except ValueError:
+        # A NUL in the name, which no file can have.
+        raise InputError(repr(str(path)), None, "this is no file name", "check the path") from None
 
 
 def read_string(path: Path) -> str:
@@ -57,35 +60,68 @@ def parse_json(text: str, path: Path) -> Any:
         return json.loads(text)
     except json.JSONDecodeError as error:
         raise InputError(path, error.lineno, f"not JSON: {error.msg}") from None
+    except ValueError as error:
+        raise InputError(path, None, f"not JSON that can be read: {error}") from None
     except RecursionError:
         raise InputError(path, 1, "not JSON that can be read: nested too deeply") from None
 
 
-def object_from_json(item: object) -> ObjectNode:
+def object_from_json(item: object, report: Report = quiet) -> ObjectNode:
     """Read one object; `ingredients` are the contents of `contains`, `container` the relatum of `in`.
 
-    Raises `ValueError` with what is wrong.
+    The FOON API's keys `object_label` and `object_states` are read, too. Raises `ValueError` with what
+    is wrong.
     """
     if not isinstance(item, dict):
-        raise ValueError(f"expected an object, found {json.dumps(item)[:40]}")
-    label = item.get("label")
-    if not isinstance(label, str) or not label.strip():
+        raise ValueError(f"expected an object, found {kind_of(item)}")
+    label = item.get("label", item.get("object_label"))
+    if not isinstance(label, str) or not clean(label):
         raise ValueError("'label' is missing or no text")
-    states: list[State] = []
-    for text in _texts(item, "states"):
-        state = parse_state(text)
-        if state is None:
-            raise ValueError(f"the state {text!r} cannot be read")
-        states.append(state)
-    ingredients = [text.strip().lower() for text in _texts(item, "ingredients") if text.strip()]
+    ingredients = read_contents(_texts(item, "ingredients"), report)
+    states = [_state_from_json(state, report) for state in _states(item)]
     if ingredients:
+        # The FOON API names the state beside its contents.
+        states = [state for state in states if state != State("contains")]
         states.append(contains(*ingredients))
     container = item.get("container")
     if container is not None and not isinstance(container, str):
         raise ValueError("'container' is neither text nor null")
-    if container and container.strip():
-        states.append(inside(container.strip().lower()))
-    return ObjectNode.of(label.strip().lower(), states)
+    relatum = read_relatum(container or "", report)
+    if relatum is not None:
+        states.append(inside(relatum))
+    return ObjectNode.of(clean(label, report), states)
+
+
+def _states(item: dict[str, object]) -> list[object]:
+    key = "object_states" if "object_states" in item else "states"
+    value = item.get(key)
+    if value is None:
+        return []
+    if not isinstance(value, list):
+        raise ValueError(f"{key!r} is not a list")
+    return value
+
+
+def _state_from_json(value: object, report: Report) -> State:
+    """Read a state: a text, or `{state_label, relative_object}`."""
+    related = None
+    if isinstance(value, dict):
+        related = value.get("relative_object")
+        value = value.get("state_label", value.get("label"))
+    if not isinstance(value, str) or not isinstance(related, str | None):
+        raise ValueError("a state is no text")
+    text = clean(value, report)
+    relatum = read_relatum(related or "", report)
+    state = parse_state(text if relatum is None else f"{text} [{relatum}]", report)
+    if state is None:
+        raise ValueError(f"the state {value[:60]!r} cannot be read")
+    return state
+
+
+def kind_of(value: object) -> str:
+    """Return what a JSON value is, in a word or two."""
+    kinds = {dict: "an object", list: "a list", str: "a text", bool: "true or false", type(None): "null"}
+    return kinds.get(type(value), "a number")
 
 
 def _texts(item: dict[str, object], key: str) -> list[str]:

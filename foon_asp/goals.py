@@ -74,6 +74,14 @@ def find_goal(domain: Domain, text: str, preferred: Iterable[ObjectNode] = ()) -
     same_label = [node for node in nodes if node.label == pattern.label]
     if not same_label:
         labels = {node.label for node in nodes}
+        begins = [label for label in labels if pattern.label.startswith(label + " ")]
+        if begins:
+            label = max(begins, key=len)
+            rest = pattern.label.removeprefix(label).strip()
+            raise QueryError(
+                f"unknown goal {text!r}: no object has this label;"
+                f" states go into brackets: '{label} [{rest}]'"
+            )
         raise QueryError(f"unknown goal {text!r}: no object has this label{closest(pattern.label, labels)}")
     for exactly in (True, False):
         fitting = [node for node in same_label if pattern.matches(node, exactly=exactly)]

@@ -25,3 +25,9 @@ def encoding(name: str) -> Path:
 def built_in_data() -> Path:
     """Return the folder of the data that comes with the program."""
     return _folder("data")
+
+
+def lexicon() -> frozenset[str]:
+    """Return the words of the kitchen in their usual spelling."""
+    lines = (_folder("data") / "words.txt").read_text(encoding="utf-8").splitlines()
+    return frozenset(line for line in lines if not line.startswith("#"))

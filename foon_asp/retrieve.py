@@ -11,7 +11,7 @@ from foon_asp.errors import InternalError, QueryError
 from foon_asp.facts import facts, success_chance
 from foon_asp.graph import ObjectNode
 from foon_asp.problem import Domain, Problem
-from foon_asp.solve import Answer, Solver
+from foon_asp.solve import Solver
 from foon_asp.tree import TaskTree
 
 METHODS = ("optimal", "greedy", "ids", "first")
@@ -26,8 +26,9 @@ class Retrieval:
     """The answer to one goal.
 
     `status` is `optimal` (proven), `found` (by a method that does not optimise), `unreachable` (no tree
-    exists; `reason` says why) or `limit` (the time ran out; the tree is the best so far). `bound` holds,
-    for the criteria that are not proven, what no tree can beat. `seconds` is wall time.
+    exists; `reason` says why) or `limit` (the time ran out; the tree is the best so far, if there is
+    one). `bound` then holds what `optimal` has proven of each criterion: no tree does better by the first,
+    no tree that is best by the first does better by the second, and so on. `seconds` is wall time.
     """
 
     goal: ObjectNode
@@ -69,10 +70,10 @@ def retrieve(
         if method == "optimal":
             status, tree, bound = _optimal(problem, by, deadline)
         elif method == "ids":
-            status, tree = "found", _ids(problem)
+            status, tree, bound = _ids(problem, deadline)
         else:
             heuristic = by[0] if method == "greedy" else "first"
-            status, tree = _greedy(problem, heuristic, deadline)
+            status, tree, bound = _greedy(problem, heuristic, deadline)
     seconds = time.perf_counter() - started
     return Retrieval(goal, method, by, founded, status, tree, bound, reason, seconds)
 
@@ -95,7 +96,7 @@ def reach(domain: Domain) -> tuple[list[int], list[int]]:
 def check_method(method: str, by: str | Sequence[str], founded: bool) -> tuple[str, ...]:
     """Return the criteria of a method, its default if none are named; raise `QueryError`."""
     if isinstance(by, str):
-        by = [name.strip() for name in by.split(",")]
+        by = [name.strip() for name in by.split(",")] if by.strip() else ()
     choices = {"optimal": CRITERIA, "greedy": HEURISTICS, "ids": (), "first": ()}
     if method not in choices:
         raise QueryError(f"unknown method {method!r}; methods: {', '.join(METHODS)}")
@@ -147,7 +148,8 @@ def _locked(domain: Domain, goal: int) -> str:
     if nobody:
         names = ", ".join(str(domain.node(thing)) for thing in nobody[:3])
         more = f" and {len(nobody) - 3} more" if len(nobody) > 3 else ""
-        return f"the kitchen lacks {names}{more}, and no unit makes it"
+        it = "it" if len(nobody) == 1 else "them"
+        return f"the kitchen lacks {names}{more}, and no unit makes {it}"
     inner, circle = _circle(domain, goal)
     places = ", ".join(str(domain.foon.units[unit].source) for unit in circle)
     return f"locked in a circle: {domain.node(inner)} is needed to make itself ({places})"
@@ -183,57 +185,77 @@ def _solver(
     return Solver(encodings, text, constants, OPTIMISE)
 
 
-def _optimal(
-    problem: Problem, by: tuple[str, ...], deadline: float | None
-) -> tuple[str, TaskTree | None, dict[str, float]]:
+_BASE = 1
+"""Every tree pays this by every criterion, so that clingo's bounds have a place for each of them."""
+
+Found = tuple[str, TaskTree | None, dict[str, float]]
+"""Status, tree and bound, as in `Retrieval`."""
+
+
+def _optimal(problem: Problem, by: tuple[str, ...], deadline: float | None) -> Found:
     criteria = by if "units" in by else (*by, "units")
-    priorities = range(len(criteria) - 1, -1, -1)
     constants: dict[str, str | int] = {"founded": int(problem.founded)}
     if "depth" in by:
-        constants["horizon"] = _horizon(problem, by, deadline)
+        horizon, unfinished = _horizon(problem, by, deadline)
+        if unfinished:
+            return unfinished
+        constants["horizon"] = horizon
     solver = _solver(
         problem,
         ["task_tree.lp", *(f"criteria/{name}.lp" for name in criteria)],
         constants,
         extra_facts="".join(
-            f'criterion("{name}",{priority}).\n' for name, priority in zip(criteria, priorities, strict=True)
+            f'criterion("{name}",{len(criteria) - place}). penalty("{name}","base",{_BASE}).\n'
+            for place, name in enumerate(criteria)
         ),
         rates_required="success" in by,
     )
+    first = solver.first() if deadline is not None else None
     answer = solver.best(deadline)
-    if answer.atoms is None:
-        return "unreachable", None, {}
-    tree = decode_tree(problem, answer)
     if answer.proven:
-        return "optimal", tree, {}
-    return "limit", tree, _bound(criteria, by, answer)
+        if answer.atoms is None:
+            return "unreachable", None, {}
+        return "optimal", decode_tree(problem, answer), {}
+    candidates = [each for each in (answer, first) if each is not None and each.atoms is not None]
+    trees = [decode_tree(problem, each) for each in candidates]
+    lower = dict(zip(criteria, answer.bounds, strict=True))
+    bound = {name: _as_cost(name, max(0, lower[name] - _BASE)) for name in by}
+    return "limit", min(trees, key=lambda tree: _key(tree, criteria)), bound
 
 
-def _bound(criteria: Sequence[str], by: Sequence[str], answer: Answer) -> dict[str, float]:
-    """Return what no tree can beat. A criterion not yet looked at costs at least nothing."""
-    bounds = (*answer.bounds, *(0 for _ in criteria))
-    return {
-        name: success_chance(lower) if name == "success" else lower
-        for name, lower in zip(criteria, bounds, strict=False)
-        if name in by
+def _as_cost(criterion: str, value: int) -> float:
+    return success_chance(value) if criterion == "success" else value
+
+
+def _key(tree: TaskTree, criteria: Sequence[str]) -> list[float]:
+    """Return the costs of a tree by each criterion; the less the better."""
+    costs = tree.costs
+    values = {
+        "units": costs.units,
+        "inputs": costs.inputs,
+        "success": -(costs.success or 0.0),
+        "depth": costs.depth or 0,
     }
+    return [values[name] for name in criteria]
 
 
-def _horizon(problem: Problem, by: tuple[str, ...], deadline: float | None) -> int:
-    """Return a depth that some best tree does not exceed.
+def _horizon(problem: Problem, by: tuple[str, ...], deadline: float | None) -> tuple[int, Found | None]:
+    """Return a depth that some best tree does not exceed, or what was found if time ran out before.
 
     If depth comes first it is the round in which the closure reaches the goals. Else any tree that is
     best by the criteria before it will do: a best tree is no deeper.
     """
     before = by[: by.index("depth")]
-    if before:
-        _, tree, _ = _optimal(problem, before, deadline)
-        return max(1, tree.depth or 1) if tree else 1
-    closure = problem.domain.closure
-    return max(1, *(closure.available[goal] for goal in problem.goals))
+    if not before:
+        closure = problem.domain.closure
+        return max(1, *(closure.available[goal] for goal in problem.goals)), None
+    status, tree, bound = _optimal(problem, before, deadline)
+    if status != "optimal":
+        return 1, (status, tree, bound | {name: 0 for name in by if name not in before})
+    return max(1, tree.depth or 1) if tree else 1, None
 
 
-def _greedy(problem: Problem, heuristic: str, deadline: float | None) -> tuple[str, TaskTree | None]:
+def _greedy(problem: Problem, heuristic: str, deadline: float | None) -> Found:
     # The levels of a selection are about as many as the rounds of the closure.
     rounds = problem.domain.closure.available
     horizon = 4 + max(rounds.get(goal, 8) for goal in problem.goals)
@@ -244,25 +266,29 @@ def _greedy(problem: Problem, heuristic: str, deadline: float | None) -> tuple[s
             {"founded": int(problem.founded), "by": heuristic, "horizon": horizon},
             rates_required=heuristic == "success",
         )
+        first = solver.first() if deadline is not None else None
         answer = solver.best(deadline)
-        if answer.atoms is None:
-            return "unreachable", None
         if not answer.proven:
-            return "limit", decode_tree(problem, answer)
+            best = answer if answer.atoms is not None or first is None else first
+            return "limit", decode_tree(problem, best) if best.atoms is not None else None, {}
+        if answer.atoms is None:
+            return "unreachable", None, {}
         if not column(answer, "beyond"):
-            return "found", decode_tree(problem, answer)
+            return "found", decode_tree(problem, answer), {}
         horizon *= 2
 
 
-def _ids(problem: Problem) -> TaskTree:
+def _ids(problem: Problem, deadline: float | None) -> Found:
     solver = _solver(problem, ["ids.lp"], {})
     for bound in range(len(problem.units) + 1):
+        if deadline is not None and time.monotonic() > deadline:
+            return "limit", None, {}
         if bound > 0:
             solver.ground("step", bound)
         solver.ground("check", bound)
         solver.switch("bound", bound, True)
         if solver.best().atoms is not None:
             solver.ground("choose", bound)
-            return decode_tree(problem, solver.best())
+            return "found", decode_tree(problem, solver.best()), {}
         solver.switch("bound", bound, False)
     raise InternalError("depth-bounded search passed every depth without reaching a reachable goal")

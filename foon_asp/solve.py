@@ -5,28 +5,31 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Union
 
 import clingo
 
 from foon_asp import resources
 from foon_asp.errors import InternalError
 
-Atom = tuple[str, tuple[int, ...]]
+Value = Union[int, str, "tuple[Value, ...]"]
+Atom = tuple[str, tuple[Value, ...]]
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
     """The shown atoms of the best model, or none if there is no model.
 
-    `proven` says that no better model exists (or that none exists at all); `costs` are what the model
-    pays and `bounds` what every model pays at least, one number for each priority, highest first.
+    `proven` says that no better model exists (or that none exists at all). `costs` is what the model pays
+    and `bounds` what is proven of it so far, one number for each priority, the highest first; a bound
+    holds among the models that are best by the priorities before. clingo leaves out a priority at which
+    nothing can ever be paid.
     """
 
     atoms: tuple[Atom, ...] | None
     proven: bool
-    costs: tuple[int, ...] = ()
     bounds: tuple[int, ...] = ()
+    costs: tuple[int, ...] = ()
 
 
 class Solver:
@@ -62,50 +65,49 @@ class Solver:
         """Set the external atom `external(number)`."""
         self._control.assign_external(clingo.Function(external, [clingo.Number(number)]), value)
 
-    def best(self, deadline: float | None = None) -> Answer:
-        """Return the best model, or the best found until the deadline (`time.monotonic()` seconds).
+    def first(self) -> Answer:
+        """Return a first model, whatever it costs, without proving anything of it.
 
-        With a deadline a first model is taken before, whatever it costs and however long it takes: core-
-        guided optimisation may prove bounds for long before it has a model.
+        Core-guided optimisation may prove bounds for long before it has a model; this one is quick.
         """
-        if deadline is None:
-            return self._solve(None)
         configuration: Any = self._control.configuration
         configuration.solve.opt_mode = "ignore"
-        first = self._solve(None)
+        answer = self.best()
         configuration.solve.opt_mode = "opt"
-        if first.atoms is None:
-            return first
-        answer = self._solve(deadline)
-        if answer.atoms is None:
-            return Answer(first.atoms, False, bounds=answer.bounds)
-        return answer
+        return Answer(answer.atoms, answer.atoms is None)
 
-    def _solve(self, deadline: float | None) -> Answer:
+    def best(self, deadline: float | None = None) -> Answer:
+        """Return the best model, or the best found until the deadline (`time.monotonic()` seconds)."""
         found: list[tuple[tuple[Atom, ...], tuple[int, ...]]] = []
-        bounds: list[tuple[int, ...]] = []
 
         def on_model(model: clingo.Model) -> None:
             found[:] = [(_atoms(model), tuple(model.cost))]
 
-        def on_unsat(lower: Sequence[int]) -> None:
-            bounds[:] = [tuple(lower)]
-
-        with self._control.solve(on_model=on_model, on_unsat=on_unsat, async_=True) as handle:
+        with self._control.solve(on_model=on_model, async_=True) as handle:
             if deadline is None:
                 handle.wait()
             elif not handle.wait(max(0.0, deadline - time.monotonic())):
                 handle.cancel()
-            result = handle.get()
-        lower = bounds[0] if bounds else ()
+            proven = bool(handle.get().exhausted)
+        # The callback for bounds leaves out priorities that were no work; the statistics have all.
+        summary: Any = self._control.statistics["summary"]
+        lower = tuple(int(bound) for bound in summary.get("lower", ()))
         if not found:
-            return Answer(None, bool(result.exhausted), bounds=lower)
-        atoms, costs = found[0]
+            return Answer(None, proven, lower)
         # Where there is nothing to pay the first model is a best one, and clingo looks no further.
-        proven = bool(result.exhausted) or not costs
-        return Answer(atoms, proven, costs, costs if proven else lower)
+        atoms, costs = found[0]
+        proven = proven or not costs
+        return Answer(atoms, proven, costs if proven else lower, costs)
 
 
 def _atoms(model: clingo.Model) -> tuple[Atom, ...]:
     symbols = sorted(model.symbols(shown=True))
-    return tuple((s.name, tuple(argument.number for argument in s.arguments)) for s in symbols)
+    return tuple((symbol.name, tuple(map(_value, symbol.arguments))) for symbol in symbols)
+
+
+def _value(symbol: clingo.Symbol) -> Value:
+    if symbol.type is clingo.SymbolType.Number:
+        return symbol.number
+    if symbol.type is clingo.SymbolType.String:
+        return symbol.string
+    return tuple(map(_value, symbol.arguments))

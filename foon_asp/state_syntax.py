@@ -13,47 +13,59 @@ from foon_asp.graph import ObjectNode, State, contains, inside
 Report = Callable[[str, str], None]
 """Receives the code and the message of an oddity."""
 
-_STATE = re.compile(r"(?P<name>[^\[\]{}]*)(?P<rest>[\[{].*)?$", re.DOTALL)
-_BRACES = re.compile(r"\{([^{}]*)(?:\}|$)")
-_BRACKETS = re.compile(r"\[([^\[\]]*)(?:\]|$)")
+_STATE = re.compile(r"(?P<name>[^\[\]{}]*)(?P<rest>.*)", re.DOTALL)
+_GROUP = re.compile(r"\[(?P<relatum>[^\[\]{}]*)(?:\]|\Z)|\{(?P<contents>[^\[\]{}]*)(?:\}|\Z)")
+_BRACKET = re.compile(r"[\[\]{}]")
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+_SURROGATE = re.compile(r"[\ud800-\udfff]")
 PLACES = frozenset({"in", "on", "under", "with", "inside", "attached to", "around", "between"})
 
 
-def _quiet(code: str, message: str) -> None:
+def quiet(code: str, message: str) -> None:
     """Take a report and do nothing with it."""
 
 
-def parse_state(text: str, report: Report = _quiet) -> State | None:
+def without_control_characters(text: str) -> str:
+    """Remove control characters but tab and newline: they would cut the strings of clingo short."""
+    return _CONTROL.sub("", text)
+
+
+def clean(text: str, report: Report = quiet) -> str:
+    """Return the label in a text that may hold anything: one line, stripped, lower case."""
+    plain = _SURROGATE.sub("\ufffd", without_control_characters(re.sub(r"[\t\r\n]+", " ", text)))
+    if len(plain) != len(text) or "\ufffd" in plain:
+        report("control-character", f"{text[:60]!r} is read as {plain[:60]!r}")
+    return plain.strip().lower()
+
+
+def parse_state(text: str, report: Report = quiet) -> State | None:
     """Read `name`, `name [relatum]` or `name {content, content}`; None if there is no name."""
-    match = _STATE.match(text)
+    match = _STATE.fullmatch(text)
     name = match["name"].strip().lower() if match else ""
     if match is None or not name:
         return None
-    return make_state(name, match["rest"] or "", report)
+    return make_state(name, match["rest"], report)
 
 
-def make_state(name: str, detail: str, report: Report = _quiet) -> State:
+def make_state(name: str, detail: str, report: Report = quiet) -> State:
     """Make a state of its name and of what stands in braces or brackets behind it."""
     detail = detail.strip()
     if not detail:
         if name == "contains":
             report("contains-without-braces", "'contains' does not say what")
         return State(name)
-    braces = _BRACES.search(detail)
-    brackets = _BRACKETS.search(detail)
-    rest = _BRACKETS.sub("", _BRACES.sub("", detail)).strip()
+    groups = list(_GROUP.finditer(detail))
+    contents_text = next((g["contents"] for g in groups if g["contents"] is not None), None)
+    relatum_text = next((g["relatum"] for g in groups if g["relatum"] is not None), None)
     if detail.count("{") != detail.count("}") or detail.count("[") != detail.count("]"):
         report("unbalanced-brackets", f"the brackets of {detail!r} do not match")
-    contents = None if braces is None else _parse_contents(braces[1], report)
-    relatum = None if brackets is None else _parse_relatum(brackets[1], name, report)
-    if rest and braces is None and brackets is None:
-        report("state-without-brackets", f"{detail!r} stands without brackets")
-        if name == "contains":
-            contents = _parse_contents(rest, report)
-        else:
-            relatum = rest.lower()
-    elif rest:
-        report("stray-text", f"{rest!r} stands outside of the brackets")
+    if not groups:
+        return _without_groups(name, " ".join(_BRACKET.sub(" ", detail).split()), report)
+    rest = _GROUP.sub("", detail).strip()
+    if rest or len(groups) > (contents_text is not None) + (relatum_text is not None):
+        report("stray-text", f"{rest or detail!r} is more than one thing in brackets; the first counts")
+    contents = None if contents_text is None else _parse_contents(contents_text, report)
+    relatum = None if relatum_text is None else _parse_relatum(relatum_text, name, report)
     if name == "contains" and contents is None and relatum is not None:
         report("contains-in-brackets", f"contents stand in '[{relatum}]' instead of braces")
         return State(name, contents=_parse_contents(relatum, report))
@@ -61,6 +73,16 @@ def make_state(name: str, detail: str, report: Report = _quiet) -> State:
         report("place-in-braces", f"a place stands in '{{{contents[0]}}}' instead of brackets")
         return State(name, relatum=contents[0])
     return State(name, relatum, contents)
+
+
+def _without_groups(name: str, text: str, report: Report) -> State:
+    """Make a state whose detail stands in no brackets."""
+    if not text:
+        return State(name)
+    report("state-without-brackets", f"{text!r} stands without brackets")
+    if name == "contains":
+        return State(name, contents=_parse_contents(text, report))
+    return State(name, text.lower())
 
 
 def _parse_contents(text: str, report: Report) -> tuple[str, ...]:
@@ -89,15 +111,39 @@ def _parse_relatum(text: str, name: str, report: Report) -> str | None:
     return relatum
 
 
+def read_contents(texts: list[str], report: Report = quiet) -> tuple[str, ...]:
+    """Return the contents that a list names, sorted; brackets and commas cannot be part of a content."""
+    found: list[str] = []
+    for text in texts:
+        content = clean(text, report)
+        parts = [part.strip() for part in _BRACKET.sub(" ", content).split(",")]
+        kept = [part for part in parts if part]
+        if content and kept != [content]:
+            report("odd-content", f"the content {text[:60]!r} is read as {kept}")
+        found += kept
+    return tuple(sorted(found))
+
+
+def read_relatum(text: str, report: Report = quiet) -> str | None:
+    """Return what a relation names; brackets cannot be part of it. None if nothing is left."""
+    relatum = clean(text, report)
+    kept = _BRACKET.sub(" ", relatum).strip()
+    if kept != relatum:
+        report("odd-content", f"{text[:60]!r} is read as {kept!r}")
+    return kept or None
+
+
 def object_to_json(node: ObjectNode) -> dict[str, object]:
     """Write a node as `{label, states, ingredients, container}`; what does not fit goes to `states`."""
     states: list[str] = []
     ingredients: list[str] = []
     container: str | None = None
+    # Beside a plain `contains`, ingredients would be read as its contents.
+    fits = State("contains") not in node.states
     for state in node.states:
         if container is None and state == inside(state.relatum or ""):
             container = state.relatum
-        elif not ingredients and state.contents and state == contains(*state.contents):
+        elif fits and not ingredients and state.contents and state == contains(*state.contents):
             ingredients = list(state.contents)
         else:
             states.append(str(state))

@@ -1,4 +1,4 @@
-"""The FOON text format: reading all its dialects, writing the one with labels only.
+"""The FOON text format: reading all its dialects, writing labels only or with all annotations.
 
 A file is a sequence of functional units, each ended by a `//` line. A unit is blocks of lines: an
 object (an `O` line and the `S` lines of its states), a motion (an `M` line), a comment (`#`). Objects
@@ -8,65 +8,57 @@ before the motion are inputs, after it outputs. docs/format.md has the grammar a
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
 
-from foon_asp.findings import Finding, Severity
+from foon_asp.findings import Finding
 from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, Mark, ObjectNode, Source, State
-from foon_asp.state_syntax import Report, make_state, parse_state
+from foon_asp.mend import OF_ROWS, mend_row
+from foon_asp.oddities import oddity
+from foon_asp.state_syntax import Report, make_state, parse_state, without_control_characters
+from foon_asp.unit_syntax import check_sides, check_times, parse_rate, parse_time, split_motion, time_text
+
+Dialect = Literal["A", "B"]
 
 _END_OF_UNIT = re.compile(r"^//.*\n?", re.MULTILINE)
 _START = r"(?:[OM]\d*(?:[\t ]|$)|#)"
 _BLOCK = re.compile(rf"^{_START}.*\n?(?:(?!{_START}).*\n|(?!{_START}).+\Z)*", re.MULTILINE)
 _HEAD = re.compile(r"[OSM]\d*(?:[\t ]+|$)")
-_TIME = re.compile(r"(?:(\d+):)?(\d+):(\d\d?)(?:\.\d+)?")
-_UNKNOWN_TIME = re.compile(r"assume|unknown|n/?a|-*$", re.IGNORECASE)
+_LIKE_A_TIME = re.compile(r"[<\d]|assume|unknown|n/?a|-|$", re.IGNORECASE)
+_NOT_A_LABEL = re.compile(r"[\d!]*")
 
 _NO_MARK = Mark()
-_SEVERITIES = {
-    "unreadable-line": Severity.ERROR,
-    "object-without-label": Severity.ERROR,
-    "unit-without-motion": Severity.ERROR,
-    "two-motions": Severity.ERROR,
-    "motion-without-label": Severity.ERROR,
-    "unit-without-outputs": Severity.WARNING,
-    "unit-without-inputs": Severity.WARNING,
-    "state-of-motion": Severity.WARNING,
-    "state-without-name": Severity.WARNING,
-    "contains-without-braces": Severity.WARNING,
-    "empty-brackets": Severity.WARNING,
-    "empty-braces": Severity.WARNING,
-    "comma-in-brackets": Severity.WARNING,
-    "unbalanced-brackets": Severity.WARNING,
-    "stray-text": Severity.WARNING,
-    "broken-time": Severity.WARNING,
-    "broken-rate": Severity.WARNING,
-}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Block:
-    """A block once read: which object it is, and what is odd in it (line offset, code, message)."""
+    """A block once read: its object, and what is odd in it (line offset, code, message, mend).
 
-    object: int
+    `number` is the object's id in the graph, which it gets with its first unit.
+    """
+
+    node: ObjectNode | None
     mark: Mark
-    oddities: tuple[tuple[int, str, str], ...]
+    oddities: tuple[tuple[int, str, str, str], ...]
     lines: int
+    number: int = -1
 
 
 @dataclass(slots=True)
 class _Unit:
     """The blocks of one unit while it is read."""
 
-    inputs: list[_Block]
-    outputs: list[_Block]
-    motions: list[tuple[int, str]]
+    inputs: list[_Block] = field(default_factory=list)
+    outputs: list[_Block] = field(default_factory=list)
+    motions: list[tuple[int, str]] = field(default_factory=list)
+    sources: list[Source] = field(default_factory=list)
     line: int = 0
     broken: bool = False
 
 
-_StateLine = tuple[State | None, tuple[tuple[str, str], ...]]
-"""An `S` line once read: the state, if it says one, and what is odd in it (code, message)."""
+_StateLine = tuple[State | None, tuple[tuple[str, str, str], ...]]
+"""An `S` line once read: the state, if it says one, and what is odd in it (code, message, mend)."""
 
 
 class TextReader:
@@ -85,10 +77,7 @@ class TextReader:
         """Read all units of one file; what is odd in it is added to `findings`."""
         self._file = file
         self._video = ""
-        if text.startswith("\ufeff"):
-            self._report(1, "byte-order-mark", "the file begins with a byte order mark")
-            text = text[1:]
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
+        text = self._plain(text)
         line = 1
         start = 0
         while start < len(text):
@@ -96,22 +85,45 @@ class TextReader:
             stop = end.start() if end else len(text)
             chunk = text[start:stop]
             found = bool(chunk) and self._read_unit(chunk, line)
-            line += chunk.count("\n")
             if end is None and found:
-                last = line - chunk.endswith("\n")
-                self._report(last, "unit-not-closed", "the last unit is not closed by '//'")
-            elif end is not None and not found:
-                self._report(line, "empty-unit", "this '//' ends a unit that is empty")
+                last = line + chunk.count("\n") - chunk.endswith("\n")
+                mend = "write '//' below it"
+                self._report(last, "unit-not-closed", "the last unit is not closed by '//'", mend)
+            line += chunk.count("\n")
+            if end is not None:
+                self._check_end(end[0], line, found, doubled=start > 0 and not chunk.strip())
             line += 1
             start = end.end() if end else len(text)
 
-    def _report(self, line: int, code: str, message: str) -> None:
-        severity = _SEVERITIES.get(code, Severity.NOTE)
-        self.findings.append(Finding(code, severity, self._file, line, message))
+    def _plain(self, text: str) -> str:
+        """Return the text with newlines only, without byte order mark and control characters."""
+        if text.startswith("\ufeff"):
+            self._report(1, "byte-order-mark", "the file begins with a byte order mark", "delete it")
+            text = text[1:]
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+        plain = without_control_characters(text)
+        if len(plain) != len(text):
+            for line, row in enumerate(text.split("\n"), 1):
+                count = len(row) - len(without_control_characters(row))
+                if count:
+                    self._report(line, "control-character", f"{count} control characters are left out")
+        return plain
+
+    def _check_end(self, row: str, line: int, found: bool, *, doubled: bool) -> None:
+        """Report what is odd about the `//` line behind a unit."""
+        rest = row.strip("/ \t\n")
+        if rest:
+            self._report(line, "stray-text", f"{rest!r} behind '//' is left out")
+        if not found:
+            mend = "delete the line" if doubled and not rest else ""
+            self._report(line, "empty-unit", "this '//' ends a unit that is empty", mend)
+
+    def _report(self, line: int, code: str, message: str, mend: str = "") -> None:
+        self.findings.append(oddity(code, self._file, line, message, mend))
 
     def _read_unit(self, chunk: str, line: int) -> bool:
         """Read the text between two `//` lines that begins at `line`. Return whether a unit is there."""
-        unit = _Unit([], [], [])
+        unit = _Unit()
         place = 0
         first = _BLOCK.search(chunk)
         if first is None or first.start() > 0:
@@ -123,21 +135,20 @@ class TextReader:
                 block = self._blocks.get(raw)
                 if block is None:
                     block = self._blocks[raw] = self._read_object(raw)
-                for offset, code, message in block.oddities:
-                    self._report(line + offset, code, message)
+                for offset, code, message, mend in block.oddities:
+                    self._report(line + offset, code, message, mend)
                 unit.line = unit.line or line
-                unit.broken |= block.object < 0
+                unit.broken |= block.node is None
                 (unit.outputs if unit.motions else unit.inputs).append(block)
                 line += block.lines
-            elif raw[0] == "M":
-                head, _, rest = raw.partition("\n")
+                continue
+            head, _, rest = raw.partition("\n")
+            if raw[0] == "M":
                 unit.motions.append((line, head))
                 unit.line = unit.line or line
-                line = self._read_stray(rest, line + 1)
             else:
-                head, _, rest = raw.partition("\n")
-                self._read_comment(head)
-                line = self._read_stray(rest, line + 1)
+                self._read_comment(head, unit)
+            line = self._read_stray(rest, line + 1)
         return self._finish(unit)
 
     def _read_stray(self, text: str, line: int) -> int:
@@ -148,40 +159,49 @@ class TextReader:
             elif row.strip():
                 self._report(line, "unreadable-line", f"cannot read {row[:60]!r}")
             else:
-                self._report(line, "blank-line", "a blank line")
+                self._report(line, "blank-line", "a blank line", "delete the line")
             line += 1
         return line
 
-    def _read_comment(self, line: str) -> None:
+    def _read_comment(self, line: str, unit: _Unit) -> None:
+        """Take what a comment says of where units come from: the video, or the place of the next unit."""
         words = line.lstrip("# \t")
-        if words.lower().startswith("source:"):
-            self._video = words[len("source:") :].strip()
+        kind = words[:7].lower()
+        if kind == "source:":
+            self._video = words[7:].strip()
+        elif kind[:5] == "from:" and not unit.line:
+            unit.sources.append(_read_source(words[5:].strip(), self._video))
 
     def _read_object(self, raw: str) -> _Block:
         lines = raw.split("\n")
         if not lines[-1]:
             lines.pop()
-        oddities: list[tuple[int, str, str]] = []
+        odd: list[tuple[str, str]] = []
         fields = _fields(lines[0])
         label = fields[0].lower() if fields else ""
         if not label:
-            oddities.append((0, "object-without-label", f"no label in {lines[0]!r}"))
+            odd.append(("object-without-label", f"no label in {lines[0]!r}"))
         elif "\t" not in lines[0]:
-            oddities.append((0, "missing-tab", f"no tab in {lines[0]!r}"))
-        mark = _read_mark(fields[1:], oddities)
+            odd.append(("missing-tab", f"no tab in {lines[0]!r}"))
+        more = _label_fields(fields, _NOT_A_LABEL.fullmatch) if label else 0
+        if more:
+            label = " ".join([label, *fields[1 : 1 + more]]).lower()
+            odd.append(("tab-in-label", f"a tab inside of a label, read as {label!r}"))
+        mark = _read_mark(fields[1 + more :], odd)
+        oddities = [(0, code, message, _row_mend(lines[0], code)) for code, message in odd]
         states: list[State] = []
         for offset, row in enumerate(lines[1:], 1):
             known = self._states.get(row)
             if known is None:
                 known = self._states[row] = _read_state(row)
-            state, odd = known
-            oddities += [(offset, code, message) for code, message in odd]
+            state, found = known
+            oddities += [(offset, *one) for one in found]
             if state is not None:
                 if state in states:
-                    oddities.append((offset, "duplicate-state", f"{str(state)!r} is said twice"))
+                    oddities.append((offset, "duplicate-state", f"{str(state)!r} is said twice", ""))
                 states.append(state)
-        number = self._builder.object(ObjectNode.of(label, states)) if label else -1
-        return _Block(number, mark, tuple(oddities), len(lines))
+        node = ObjectNode.of(label, states) if label else None
+        return _Block(node, mark, tuple(oddities), len(lines))
 
     def _finish(self, unit: _Unit) -> bool:
         """Add a unit to the FOON, or report why it cannot be. Return whether there was one."""
@@ -202,43 +222,52 @@ class TextReader:
         return True
 
     def _add(self, unit: _Unit, motion: str, note: Annotation) -> None:
-        inputs = [block.object for block in unit.inputs]
-        outputs = [block.object for block in unit.outputs]
-        for side, numbers in (("input", inputs), ("output", outputs)):
-            if not numbers:
-                self._report(unit.line, f"unit-without-{side}s", f"a unit without {side}s")
-            elif len(set(numbers)) != len(numbers):
-                self._report(unit.line, f"duplicate-{side}", f"an {side} is listed twice")
+        def report(code: str, message: str) -> None:
+            self._report(unit.line, code, message)
+
+        inputs = [b.number if b.number >= 0 else self._number(b) for b in unit.inputs]
+        outputs = [b.number if b.number >= 0 else self._number(b) for b in unit.outputs]
+        check_sides(inputs, outputs, report)
         if self._builder.unit(motion, inputs, outputs, note) is None:
-            self._report(unit.line, "duplicate-unit", "this unit was there before")
+            report("duplicate-unit", "this unit was there before")
+
+    def _number(self, block: _Block) -> int:
+        """Give a block's object its id; objects of units that are left out never get one."""
+        assert block.node is not None
+        block.number = self._builder.object(block.node)
+        return block.number
 
     def _read_motion(self, unit: _Unit, line: int, row: str) -> tuple[str, Annotation] | None:
         """Read `M<id?> label [start end | start-end] [agent rate]`; None if it has no label."""
         fields = _fields(row)
-        if not fields or not fields[0].strip("* "):
+        label, composite = split_motion(fields[0].lower()) if fields else ("", False)
+        if not label:
             self._report(line, "motion-without-label", f"no label in {row!r}; the unit is left out")
             return None
         if "\t" not in row:
-            self._report(line, "missing-tab", f"no tab in {row!r}")
-        label = fields[0].lower()
+            self._report(line, "missing-tab", f"no tab in {row!r}", _row_mend(row, "missing-tab"))
+        more = _label_fields(fields, _LIKE_A_TIME.match)
+        if more and len(fields) > 1 + more:
+            label, composite = split_motion(" ".join(fields[: 1 + more]).lower())
+            del fields[1 : 1 + more]
+            self._report(line, "tab-in-label", f"a tab inside of a label, read as {label!r}")
         start, end, rest = self._read_times(fields[1:], line)
         agent = rest[0] if rest else ""
         rate = None
-        if len(rest) > 1:
-            rate = _read_rate(rest[1])
+        if len(rest) > 1 and rest[1]:
+            rate = parse_rate(rest[1])
             if rate is None:
                 self._report(line, "broken-rate", f"{rest[1]!r} is not a chance between 0 and 1")
-        marks = tuple(block.mark for block in (*unit.inputs, *unit.outputs))
-        if all(mark is _NO_MARK for mark in marks):
-            marks = ()
-        return label.rstrip("* "), Annotation(
-            sources=(Source(self._file, unit.line, self._video),),
-            composite=label.endswith("*"),
+        if len(rest) > 2:
+            self._report(line, "stray-field", f"{rest[2]!r} behind the success rate is left out")
+        return label, Annotation(
+            sources=tuple(unit.sources) or (Source(self._file, unit.line, self._video),),
+            composite=composite,
             start=start,
             end=end,
             agent=agent,
             rate=rate,
-            marks=marks,
+            marks=_marks(unit),
         )
 
     def _read_times(self, fields: list[str], line: int) -> tuple[float | None, float | None, list[str]]:
@@ -246,23 +275,32 @@ class TextReader:
         if not fields:
             return None, None, []
         first = fields[0].strip("<>")
-        texts = first.split("-") if "-" in first.strip("-") else [first, *fields[1:2]]
-        rest = fields[1:] if "-" in first.strip("-") else fields[2:]
-        times = [self._read_time(text.strip("<> "), line) for text in texts[:2]]
+        joined = "-" in first.strip("-")
+        texts = first.split("-", 1) if joined else [first, *fields[1:2]]
+        times: list[float | None] = []
+        for text in texts:
+            try:
+                times.append(parse_time(text.strip("<> ")))
+            except ValueError as error:
+                self._report(line, "broken-time", str(error))
+                times.append(None)
         start, end = [*times, None][:2]
-        if start is not None and end is not None and end < start:
-            self._report(line, "times-backwards", f"the motion ends ({texts[1]}) before it starts")
-        return start, end, rest
+        check_times(start, end, lambda code, message: self._report(line, code, message))
+        return start, end, fields[1:] if joined else fields[2:]
 
-    def _read_time(self, text: str, line: int) -> float | None:
-        if _UNKNOWN_TIME.match(text):
-            return None
-        match = _TIME.fullmatch(text)
-        if match is None:
-            self._report(line, "broken-time", f"{text!r} is not a time (m:ss or h:mm:ss)")
-            return None
-        hours, minutes, seconds = (int(part or 0) for part in match.groups())
-        return float(hours * 3600 + minutes * 60 + seconds)
+
+def _read_source(text: str, video: str) -> Source:
+    """Read the `file:line` of a `# From:` comment."""
+    file, colon, number = text.rpartition(":")
+    if colon and re.fullmatch(r"[0-9]{1,9}", number):
+        return Source(file, int(number), video)
+    return Source(text, 0, video)
+
+
+def _marks(unit: _Unit) -> tuple[Mark, ...]:
+    """Return the marks of inputs and outputs; nothing if none is marked."""
+    marks = tuple([block.mark for block in unit.inputs] + [block.mark for block in unit.outputs])
+    return () if all(mark is _NO_MARK for mark in marks) else marks
 
 
 def _fields(row: str) -> list[str]:
@@ -274,7 +312,17 @@ def _fields(row: str) -> list[str]:
     return fields
 
 
-def _read_mark(fields: list[str], oddities: list[tuple[int, str, str]]) -> Mark:
+def _label_fields(fields: list[str], ends_label: Callable[[str], object]) -> int:
+    """Return how many fields behind the first belong to a label that has tabs inside."""
+    count = 0
+    for text in fields[1:]:
+        if ends_label(text):
+            break
+        count += 1
+    return count
+
+
+def _read_mark(fields: list[str], odd: list[tuple[str, str]]) -> Mark:
     """Read the flag (0/1: it moves) and the goal mark (`!` or a dish category)."""
     if not fields:
         return _NO_MARK
@@ -284,30 +332,42 @@ def _read_mark(fields: list[str], oddities: list[tuple[int, str, str]]) -> Mark:
         if place == 0 and text in ("0", "1"):
             moves = text == "1"
         elif place == 0 and text.strip("0") in ("", "1") and text:
-            oddities.append((0, "odd-flag", f"the flag {text!r} is read as {text[-1]!r}"))
+            odd.append(("odd-flag", f"the flag {text!r} is read as {text[-1]!r}"))
             moves = text[-1] == "1"
-        elif text == "!" or (place > 0 and text.isdigit()):
+        elif text and not goal and (text == "!" or (place > 0 and text.isdigit())):
             goal = text
         elif text:
-            oddities.append((0, "odd-flag", f"{text!r} is neither a flag nor a goal mark"))
-    return Mark(moves, goal)
+            odd.append(("stray-field", f"{text!r} is neither a flag nor a goal mark"))
+    return Mark(moves, goal) if goal or moves is not None else _NO_MARK
 
 
 def _read_state(row: str) -> _StateLine:
     """Read an `S` line of an object."""
+    if not row.strip():
+        return None, (("blank-line", "a blank line", "delete the line"),)
     odd: list[tuple[str, str]] = []
+    state = _state_of(row, lambda code, message: odd.append((code, message)))
+    codes = OF_ROWS.intersection(code for code, _ in odd)
+    mend = _state_mend(row, state, codes) if codes else ""
+    return state, tuple((code, message, mend if code in codes else "") for code, message in odd)
 
-    def report(code: str, message: str) -> None:
-        odd.append((code, message))
 
-    state = _state_of(row, report)
-    return state, tuple(odd)
+def _state_mend(row: str, state: State | None, codes: frozenset[str]) -> str:
+    """Return how to mend a state line, or nothing if that would change what it says."""
+    mended = mend_row(row, codes)
+    left: list[tuple[str, str]] = []
+    same = _state_of(mended, lambda code, message: left.append((code, message))) == state
+    certain = same and OF_ROWS.isdisjoint(code for code, _ in left)
+    return f"write {mended!r}" if certain else ""
+
+
+def _row_mend(row: str, code: str) -> str:
+    """Return how to mend an object or motion line."""
+    mended = mend_row(row, {code}) if code in OF_ROWS else row
+    return f"write {mended!r}" if mended != row else ""
 
 
 def _state_of(row: str, report: Report) -> State | None:
-    if not row.strip():
-        report("blank-line", "a blank line")
-        return None
     if not _HEAD.match(row):
         report("unreadable-line", f"cannot read {row[:60]!r}")
         return None
@@ -315,47 +375,126 @@ def _state_of(row: str, report: Report) -> State | None:
     if not fields or not fields[0]:
         report("state-without-name", f"no state in {row!r}")
         return None
-    if "\t" not in row:
-        report("missing-tab", f"no tab in {row!r}")
-    if len(fields) == 1 and any(mark in fields[0] for mark in "[]{}"):
-        report("missing-tab", f"no tab before the bracket in {fields[0]!r}")
-        state = parse_state(fields[0], report)
-        if state is None:
-            report("state-without-name", f"no state in {row!r}")
-        return state
-    return make_state(fields[0].lower(), " ".join(fields[1:]), report)
+    glued = any(mark in fields[0] for mark in "[]{}")
+    if glued or "\t" not in row:
+        report("missing-tab", f"no tab {'before the bracket ' if glued else ''}in {row!r}")
+    if not glued:
+        return make_state(fields[0].lower(), " ".join(fields[1:]), report)
+    state = parse_state(" ".join(fields), report)
+    if state is None:
+        report("state-without-name", f"no state in {row!r}")
+    return state
 
 
-def _read_rate(text: str) -> float | None:
-    try:
-        rate = float(text)
-    except ValueError:
-        return None
-    return rate if 0 <= rate <= 1 else None
+def write_text(
+    foon: Foon,
+    units: Iterable[FunctionalUnit],
+    comments: Iterable[str] = (),
+    dialect: Dialect = "B",
+    *,
+    provenance: bool = False,
+) -> str:
+    """Write units in a dialect: B is labels only, A is all that the annotators noted, with ids.
 
-
-def write_text(foon: Foon, units: Iterable[FunctionalUnit], comments: Iterable[str] = ()) -> str:
-    """Write units in the dialect of universal FOONs: labels only, one field a tab."""
-    lines = [f"# {comment}" for comment in comments]
+    With `provenance` a `# From:` comment names each place where a unit was read, and reading the text
+    brings these places back. Writing what was read from this text gives the same text.
+    """
+    chosen = list(units)
+    writer = _Annotated(foon, chosen) if dialect == "A" else _Plain(foon)
+    lines = [f"# {' '.join(comment.splitlines())}" for comment in comments]
     lines.append("//")
-    for unit in units:
-        for number in unit.inputs:
-            lines += object_lines(foon.objects[number])
-        lines.append(f"M\t{unit.motion}" + ("*" if unit.annotation.composite else ""))
-        for number in unit.outputs:
-            lines += object_lines(foon.objects[number])
+    video = ""
+    for unit in chosen:
+        for source in unit.annotation.sources if provenance else unit.annotation.sources[:1]:
+            if source.video != video and (provenance or dialect == "A"):
+                video = source.video
+                lines.append(f"# Source:\t{video}")
+            if provenance:
+                lines.append(f"# From:\t{' '.join(source.file.splitlines())}:{source.line}")
+        lines += writer.unit(unit)
         lines.append("//")
     return "\n".join(lines) + "\n"
 
 
+class _Plain:
+    """Writes units with labels only, one field a tab."""
+
+    def __init__(self, foon: Foon) -> None:
+        self._objects = foon.objects
+
+    def unit(self, unit: FunctionalUnit) -> Iterator[str]:
+        for number in unit.inputs:
+            yield from object_lines(self._objects[number])
+        yield f"M\t{unit.motion}" + "*" * unit.annotation.composite
+        for number in unit.outputs:
+            yield from object_lines(self._objects[number])
+
+
+class _Annotated:
+    """Writes units with ids, flags, goal marks, times, agent and success rate."""
+
+    def __init__(self, foon: Foon, units: Sequence[FunctionalUnit]) -> None:
+        self._foon = foon
+        self._ids = LabelIds.of(foon, units)
+
+    def unit(self, unit: FunctionalUnit) -> Iterator[str]:
+        ports = unit.inputs + unit.outputs
+        marks = unit.annotation.marks or (_NO_MARK,) * len(ports)
+        lines = [self._object(number, mark) for number, mark in zip(ports, marks, strict=True)]
+        for place, rows in enumerate(lines):
+            if place == len(unit.inputs):
+                yield self._motion(unit)
+            yield from rows
+        if not unit.outputs:
+            yield self._motion(unit)
+
+    def _object(self, number: int, mark: Mark) -> Iterator[str]:
+        node = self._foon.objects[number]
+        moves = "" if mark.moves is None else str(int(mark.moves))
+        row = f"O{self._ids.objects[node.label]}\t{node.label}\t{moves}\t{mark.goal}"
+        yield row.rstrip("\t")
+        for state in node.states:
+            yield f"S{self._ids.states[state.name]}\t{_state_fields(state)}"
+
+    def _motion(self, unit: FunctionalUnit) -> str:
+        note = unit.annotation
+        rate = "" if note.rate is None else repr(note.rate)
+        label = unit.motion + "*" * note.composite
+        fields = [label, time_text(note.start), time_text(note.end), note.agent, rate]
+        return f"M{self._ids.motions[unit.motion]}\t" + "\t".join(fields).rstrip("\t")
+
+
+@dataclass(frozen=True, slots=True)
+class LabelIds:
+    """The numbers that the labels of some units get when ids are to be written: their sorted places."""
+
+    objects: dict[str, int]
+    states: dict[str, int]
+    motions: dict[str, int]
+
+    @classmethod
+    def of(cls, foon: Foon, units: Sequence[FunctionalUnit]) -> LabelIds:
+        nodes = [foon.objects[o] for o in {o for unit in units for o in unit.inputs + unit.outputs}]
+        return cls(
+            _numbered({node.label for node in nodes}),
+            _numbered({state.name for node in nodes for state in node.states}),
+            _numbered({unit.motion for unit in units}),
+        )
+
+
+def _numbered(labels: set[str]) -> dict[str, int]:
+    return {label: number for number, label in enumerate(sorted(labels))}
+
+
 def object_lines(node: ObjectNode) -> list[str]:
     """Write an object and its states, a line each."""
-    lines = [f"O\t{node.label}"]
-    for state in node.states:
-        line = f"S\t{state.name}"
-        if state.relatum is not None:
-            line += f"\t[{state.relatum}]"
-        if state.contents is not None:
-            line += "\t{" + ",".join(state.contents) + "}"
-        lines.append(line)
-    return lines
+    return [f"O\t{node.label}", *(f"S\t{_state_fields(state)}" for state in node.states)]
+
+
+def _state_fields(state: State) -> str:
+    text = state.name
+    if state.relatum is not None:
+        text += f"\t[{state.relatum}]"
+    if state.contents is not None:
+        text += "\t{" + ",".join(state.contents) + "}"
+    return text

@@ -6,7 +6,7 @@ unless it is bare. Shares nothing with `foon_asp.reading` or the encodings.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from fractions import Fraction
 from itertools import combinations
 from math import prod
@@ -67,19 +67,23 @@ def replays(domain: Domain, goal: ObjectNode, order: Iterable[int]) -> bool:
     return goal in at_hand
 
 
-def costs(domain: Domain, goal: ObjectNode, units: Sequence[int]) -> Costs | None:
-    """Return what a set of units costs; None if not all can be executed or the goal is not made."""
-    at_hand, done = closure(domain, units)
-    if goal not in at_hand or done != set(units):
-        return None
+def sums(domain: Domain, units: Iterable[int]) -> Costs:
+    """Return what a set of units costs by the criteria that do not ask whether it can be executed."""
     used = [domain.foon.units[number] for number in units]
     rates = [Fraction(round(domain.kitchen.rates[unit.motion] * 1000), 1000) for unit in used]
     return {
         "units": len(used),
         "success": prod(rates, start=Fraction(1)),
         "inputs": sum(len(unit.inputs) for unit in used),
-        "depth": at_hand[goal],
     }
+
+
+def costs(domain: Domain, goal: ObjectNode, units: Collection[int]) -> Costs | None:
+    """Return what a set of units costs; None if not all can be executed or the goal is not made."""
+    at_hand, done = closure(domain, units)
+    if goal not in at_hand or done != set(units):
+        return None
+    return sums(domain, units) | {"depth": at_hand[goal]}
 
 
 def trees(domain: Domain, goal: ObjectNode) -> list[Costs]:

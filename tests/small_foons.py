@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
+import brute_force
 from hypothesis import strategies as st
 
 from foon_asp.graph import Annotation, Foon, FoonBuilder, ObjectNode, State, contains, inside
@@ -123,12 +124,16 @@ def domains(draw: st.DrawFn, *, strict: bool | None = None, rates: tuple[float, 
     for thing in pool:
         builder.object(thing)
     ids = st.sampled_from(range(len(pool)))
-    inputs = st.lists(ids, max_size=4, unique=True)
-    outputs = st.lists(ids, min_size=1, max_size=3, unique=True)
-    drawn = st.lists(st.tuples(st.sampled_from(MOTIONS), inputs, outputs), min_size=1, max_size=8)
-    for motion, before, behind in draw(drawn):
+    # Units without any input are rare: they would cut all trees short.
+    inputs = st.sampled_from([0, 1, 1, 1, 1, 2, 2]).flatmap(
+        lambda least: st.lists(ids, min_size=least, max_size=min(2 * least, len(pool)), unique=True)
+    )
+    outputs = st.lists(ids, min_size=1, max_size=draw(st.sampled_from([1, 2, 3])), unique=True)
+    drawn = st.tuples(st.sampled_from(MOTIONS), inputs, outputs)
+    least = draw(st.sampled_from([1, 5, 8]))
+    for motion, before, behind in draw(st.lists(drawn, min_size=least, max_size=8)):
         builder.unit(motion, before, behind, Annotation())
-    stock = draw(st.lists(st.sampled_from([*pool, node("stranger")]), max_size=3, unique=True))
+    stock = draw(st.lists(st.sampled_from([*pool, node("stranger")]), max_size=2, unique=True))
     kitchen = Kitchen(
         tuple(stock),
         frozenset(draw(st.sampled_from([("bowl", "cup"), ("bowl",), ()]))),
@@ -141,9 +146,9 @@ def domains(draw: st.DrawFn, *, strict: bool | None = None, rates: tuple[float, 
 def queries(
     draw: st.DrawFn, *, strict: bool | None = None, rates: tuple[float, ...] = RATES
 ) -> tuple[Domain, ObjectNode]:
-    """Draw a domain and a goal: more often something that a unit makes than just any object."""
+    """Draw a domain and a goal: often the thing that takes longest to make, else any object."""
     where = draw(domains(strict=strict, rates=rates))
-    made = [where.foon.objects[number] for unit in where.foon.units for number in unit.outputs]
-    wanted = [thing for thing in made if not thing.bare and thing not in where.kitchen.objects]
-    goals = wanted * 3 + list(where.foon.objects)
-    return where, draw(st.sampled_from(goals))
+    things = list(where.foon.objects)
+    at_hand, _ = brute_force.closure(where, range(len(where.foon.units)))
+    last = max(things, key=lambda thing: at_hand.get(thing, 0))
+    return where, draw(st.sampled_from([last] * len(things) + things))

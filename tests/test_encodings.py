@@ -100,7 +100,7 @@ class TestStyle:
             assert re.search(rf"^%(?: Const:)? +{constant.name} +- ", header, re.MULTILINE)
 
     def test_a_sentence_stands_above_every_rule(self, path: Path) -> None:
-        """Rules for the same predicate that stand together may share one."""
+        """Rules for the same predicate that stand together may share one; aims may go on in a list."""
         lines = path.read_text("utf-8").splitlines()
         previous: AST | None = None
         for rule in of_type(path, ASTType.Rule, ASTType.Minimize):
@@ -113,7 +113,8 @@ class TestStyle:
                 and heads(previous) == heads(rule)
             )
             sentence = sentence_above(lines, line)
-            assert together or re.fullmatch(r"[A-Z“\"].*\.", sentence), f"{path.name}:{line}: {rule}"
+            pattern = r".+[.,]" if rule.ast_type == ASTType.Minimize else r"[A-Z“\"].*\."
+            assert together or re.fullmatch(pattern, sentence), f"{path.name}:{line}: {rule}"
             previous = rule
 
     def test_what_a_constraint_forbids_is_said(self, path: Path) -> None:

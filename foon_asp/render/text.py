@@ -160,7 +160,9 @@ def comparison_text(rows: Sequence[Row]) -> str:
         parts += [" ".join(_cell(row, column) for column in columns) for _, columns in groups]
         lines.append(" | ".join(parts))
     lines.append("")
-    lines.append("functional units in the tree; ! cannot be executed, * proven optimal, - no tree exists")
+    lines.append(
+        "functional units in the tree; ! cannot be executed, * proven optimal, - no tree exists, ? time limit"
+    )
     if any(title == "paper" for title, _ in groups):
         lines.append("paper: as published (IDS, heuristic 1: success rate, heuristic 2: fewest inputs)")
     return "\n".join(lines) + "\n"

@@ -1,0 +1,380 @@
+"""FOONs in JSON: the list of units (J1) and the FOON API's `functional_units` (J2); see docs/format.md.
+
+Reading takes both, and mixtures of them, by what each object says; writing is one form or the other.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from foon_asp.errors import InputError
+from foon_asp.files import kind_of, object_from_json
+from foon_asp.findings import Finding
+from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, Mark, ObjectNode, Source, contains
+from foon_asp.oddities import oddity
+from foon_asp.state_syntax import Report, clean, object_to_json
+from foon_asp.text import LabelIds
+from foon_asp.unit_syntax import check_sides, check_times, parse_rate, parse_time, split_motion, time_text
+
+_SPACE = re.compile(r"[ \t\r\n]*")
+_ADVICE = 'write [{"input_nodes": […], "motion_node": "…", "output_nodes": […]}, …]'
+_NO_MARK = Mark()
+_OF_TEXT_ONLY = frozenset({"space-in-braces"})
+_LONGEST_NUMBER = 300
+
+
+@dataclass(frozen=True, slots=True)
+class _Item:
+    """A value of the document that should be a unit, the line where it begins, and its repeated keys."""
+
+    value: Any
+    line: int
+    repeated: tuple[str, ...]
+
+
+class _Document:
+    """Reads a JSON text unit by unit, which `json.loads` cannot: it does not say where values stand."""
+
+    def __init__(self, text: str, path: Path) -> None:
+        self._text = text
+        self._path = path
+        self._repeated: list[str] = []
+        self._decoder = json.JSONDecoder(
+            strict=False, parse_int=_read_int, object_pairs_hook=self._read_pairs
+        )
+        self._position = 0
+        self._counted = 0
+        self._line = 1
+        self.items: list[_Item] = []
+        self.source: object = None
+
+    def read(self) -> None:
+        """Read the whole text. Raises `InputError`."""
+        try:
+            self._skip()
+            if self._peek() == "[":
+                self._read_units()
+            else:
+                self._read_api()
+            self._skip()
+            if self._position < len(self._text):
+                self._fail("Extra data")
+        except json.JSONDecodeError as error:
+            raise InputError(self._path, error.lineno, f"not JSON: {error.msg}") from None
+        except RecursionError:
+            raise InputError(
+                self._path, self._line, "not JSON that can be read: nested too deeply"
+            ) from None
+
+    def _read_api(self) -> None:
+        """Read `{"functional_units": [unit, …], "source": …}`, keys in any order."""
+        self._take("{")
+        found = False
+        while self._peek() != "}":
+            key = self._value()
+            if not isinstance(key, str):
+                self._fail("Expecting property name enclosed in double quotes")
+            self._take(":")
+            if key == "functional_units" and self._peek() == "[":
+                found = True
+                self._read_units()
+            elif key == "source":
+                self.source = self._value()
+            else:
+                self._value()
+            if self._peek() != "}":
+                self._take(",")
+                if self._peek() == "}":
+                    self._fail("Expecting property name enclosed in double quotes")
+        self._take("}")
+        if not found:
+            problem = "not a FOON file: no list 'functional_units'"
+            raise InputError(self._path, 1, problem, _ADVICE)
+
+    def _read_units(self) -> None:
+        self._take("[")
+        while self._peek() != "]":
+            line = self._line_here()
+            self._repeated.clear()
+            value = self._value()
+            self.items.append(_Item(value, line, tuple(self._repeated)))
+            if self._peek() != "]":
+                self._take(",")
+                if self._peek() == "]":
+                    self._fail("Expecting value")
+        self._take("]")
+
+    def _value(self) -> Any:
+        value, self._position = self._decoder.raw_decode(self._text, self._position)
+        self._skip()
+        return value
+
+    def _take(self, character: str) -> None:
+        if self._peek() != character:
+            self._fail(f"Expecting {character!r} delimiter")
+        self._position += 1
+        self._skip()
+
+    def _peek(self) -> str:
+        return self._text[self._position : self._position + 1]
+
+    def _skip(self) -> None:
+        match = _SPACE.match(self._text, self._position)
+        assert match is not None
+        self._position = match.end()
+
+    def _line_here(self) -> int:
+        self._line += self._text.count("\n", self._counted, self._position)
+        self._counted = self._position
+        return self._line
+
+    def _fail(self, problem: str) -> None:
+        raise json.JSONDecodeError(problem, self._text, self._position)
+
+    def _read_pairs(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        value = dict(pairs)
+        if len(value) != len(pairs):
+            counts = Counter(key for key, _ in pairs)
+            self._repeated += [key for key, count in counts.items() if count > 1]
+        return value
+
+
+def _read_int(text: str) -> int | float:
+    """Read a whole number; one of thousands of digits, which Python refuses, as a float."""
+    return int(text) if len(text) < _LONGEST_NUMBER else float(text)
+
+
+class JsonReader:
+    """Reads JSON files into one builder."""
+
+    def __init__(self, builder: FoonBuilder) -> None:
+        self.findings: list[Finding] = []
+        self.reported_units = 0
+        self._builder = builder
+        self._file = ""
+        self._line = 0
+
+    def read(self, text: str, file: str) -> None:
+        """Read all units of one file; what is odd is added to `findings`, at the line of its unit.
+
+        Raises `InputError` if the text is no JSON, or neither a list nor has `functional_units`.
+        """
+        self._file = file
+        if text.startswith("\ufeff"):
+            self._line = 1
+            self._report("byte-order-mark", "the file begins with a byte order mark")
+            text = text[1:]
+        document = _Document(text.replace("\r\n", "\n").replace("\r", "\n"), Path(file))
+        document.read()
+        video = _one_line(document.source)
+        for item in document.items:
+            self._line = item.line
+            for key in item.repeated:
+                self._report("duplicate-key", f"the key {key[:60]!r} stands twice; the last counts")
+            try:
+                self._read_unit(item.value, video)
+            except ValueError as error:
+                self.reported_units += 1
+                self._report("unreadable-unit", f"{error}; the unit is left out")
+
+    def _report(self, code: str, message: str) -> None:
+        if code not in _OF_TEXT_ONLY:
+            self.findings.append(oddity(code, self._file, self._line, message))
+
+    def _read_unit(self, item: object, video: str) -> None:
+        if not isinstance(item, dict):
+            raise ValueError(f"expected a unit, found {kind_of(item)}")
+        node = item.get("motion_node")
+        note = node if isinstance(node, dict) else {}
+        label = note.get("motion_label", note.get("label")) if note else node
+        if not isinstance(label, str):
+            raise ValueError("'motion_node' is missing or has no label")
+        motion, composite = split_motion(clean(label, self._report))
+        if not motion:
+            raise ValueError("the motion has no label")
+        inputs, input_marks = self._read_side(item, "input_nodes")
+        outputs, output_marks = self._read_side(item, "output_nodes")
+        marks = input_marks + output_marks
+        start, end = self._read_time(note, "start_time"), self._read_time(note, "end_time")
+        check_times(start, end, self._report)
+        annotation = Annotation(
+            sources=(Source(self._file, self._line, _one_line(item.get("source")) or video),),
+            composite=composite,
+            start=start,
+            end=end,
+            agent=_one_line(note.get("robot_type")),
+            rate=self._read_rate(note),
+            marks=() if all(mark == _NO_MARK for mark in marks) else tuple(marks),
+        )
+        self._add(motion, inputs, outputs, annotation)
+
+    def _read_side(self, item: dict[str, object], key: str) -> tuple[list[ObjectNode], list[Mark]]:
+        value = item.get(key)
+        if value is None:
+            value = []
+        if not isinstance(value, list):
+            raise ValueError(f"{key!r} is not a list")
+        nodes: list[ObjectNode] = []
+        marks: list[Mark] = []
+        for place, thing in enumerate(value, 1):
+            try:
+                nodes.append(object_from_json(thing, self._report))
+            except ValueError as error:
+                raise ValueError(f"{key!r}, object {place}: {error}") from None
+            marks.append(self._read_mark(thing))
+        return nodes, marks
+
+    def _read_mark(self, thing: dict[str, object]) -> Mark:
+        moves = thing.get("object_in_motion")
+        if moves is None or moves == "":
+            return _NO_MARK
+        if isinstance(moves, bool | int | str) and str(moves).lower() in ("0", "1", "true", "false"):
+            return Mark(str(moves).lower() in ("1", "true"))
+        self._report("stray-field", f"'object_in_motion' is {kind_of(moves)}, not 0 or 1")
+        return _NO_MARK
+
+    def _read_time(self, note: dict[str, object], key: str) -> float | None:
+        value = note.get(key)
+        if value is None:
+            return None
+        if isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value < 1e9:
+            return round(value * 1000) / 1000
+        try:
+            if not isinstance(value, str):
+                raise ValueError(f"{kind_of(value)} that is no time (m:ss or h:mm:ss)")
+            return parse_time(value.strip())
+        except ValueError as error:
+            self._report("broken-time", f"{key!r} is {error}")
+            return None
+
+    def _read_rate(self, note: dict[str, object]) -> float | None:
+        value = note.get("weight_success")
+        if value is None or value == "":
+            return None
+        rate = parse_rate(value)
+        if rate is None:
+            self._report("broken-rate", f"'weight_success' is {str(value)[:60]!r}, no chance from 0 to 1")
+        return rate
+
+    def _add(
+        self, motion: str, inputs: Iterable[ObjectNode], outputs: Iterable[ObjectNode], note: Annotation
+    ) -> None:
+        left = [self._builder.object(node) for node in inputs]
+        right = [self._builder.object(node) for node in outputs]
+        check_sides(left, right, self._report)
+        if self._builder.unit(motion, left, right, note) is None:
+            self._report("duplicate-unit", "this unit was there before")
+
+
+def _one_line(value: object) -> str:
+    """Return a text as it can stand in one field; nothing if it is no text."""
+    return _cased(value) if isinstance(value, str) else ""
+
+
+def _cased(text: str) -> str:
+    plain = re.sub(r"[\x00-\x08\x0b-\x0c\x0e-\x1f\x7f-\x9f]", "", re.sub(r"[\t\r\n]+", " ", text))
+    return re.sub(r"[\ud800-\udfff]", "\ufffd", plain).strip()
+
+
+def write_units(foon: Foon, units: Iterable[FunctionalUnit]) -> str:
+    """Write units as J1: a list of `{input_nodes, motion_node, output_nodes}`, meaning only."""
+    values = [
+        {
+            "input_nodes": [object_to_json(foon.objects[number]) for number in unit.inputs],
+            "motion_node": _motion_label(unit),
+            "output_nodes": [object_to_json(foon.objects[number]) for number in unit.outputs],
+        }
+        for unit in units
+    ]
+    return json.dumps(values, ensure_ascii=False, indent=2) + "\n"
+
+
+def write_api(foon: Foon, units: Iterable[FunctionalUnit]) -> str:
+    """Write units as J2, the FOON API's form: with ids, motion flags, times, agent and success rate.
+
+    The video is `source` of the whole if all units have the same, else `source` of each unit.
+    """
+    chosen = list(units)
+    videos = {unit.source.video for unit in chosen}
+    writer = _Api(foon, LabelIds.of(foon, chosen), own_source=len(videos) > 1)
+    value: dict[str, object] = {"functional_units": [writer.unit(unit) for unit in chosen]}
+    if len(videos) == 1 and (video := videos.pop()):
+        value["source"] = video
+    return json.dumps(value, ensure_ascii=False, indent=2) + "\n"
+
+
+@dataclass(frozen=True, slots=True)
+class _Api:
+    """Writes single units as J2."""
+
+    foon: Foon
+    ids: LabelIds
+    own_source: bool
+
+    def unit(self, unit: FunctionalUnit) -> dict[str, object]:
+        ports = unit.inputs + unit.outputs
+        marks = unit.annotation.marks or (_NO_MARK,) * len(ports)
+        objects = [self._object(number, mark) for number, mark in zip(ports, marks, strict=True)]
+        value: dict[str, object] = {
+            "input_nodes": objects[: len(unit.inputs)],
+            "motion_node": self._motion(unit),
+            "output_nodes": objects[len(unit.inputs) :],
+        }
+        if self.own_source and unit.source.video:
+            value["source"] = unit.source.video
+        return value
+
+    def _object(self, number: int, mark: Mark) -> dict[str, object]:
+        node = self.foon.objects[number]
+        ingredients = _ingredients(node)
+        value: dict[str, object] = {
+            "object_id": self.ids.objects[node.label],
+            "object_label": node.label,
+            "object_states": list(self._states(node, ingredients)),
+            "ingredients": list(ingredients),
+        }
+        if mark.moves is not None:
+            value["object_in_motion"] = int(mark.moves)
+        return value
+
+    def _states(self, node: ObjectNode, ingredients: tuple[str, ...]) -> Iterator[dict[str, object]]:
+        for state in node.states:
+            value: dict[str, object] = {"state_id": self.ids.states[state.name]}
+            if state.relatum is not None and state.contents is None:
+                yield {**value, "state_label": state.name, "relative_object": state.relatum}
+            elif ingredients and state == contains(*ingredients):
+                yield {**value, "state_label": state.name}
+            else:
+                yield {**value, "state_label": str(state)}
+
+    def _motion(self, unit: FunctionalUnit) -> dict[str, object]:
+        note = unit.annotation
+        value: dict[str, object] = {
+            "motion_id": self.ids.motions[unit.motion],
+            "motion_label": _motion_label(unit),
+            "start_time": time_text(note.start),
+            "end_time": time_text(note.end),
+        }
+        if note.agent:
+            value["robot_type"] = note.agent
+        if note.rate is not None:
+            value["weight_success"] = note.rate
+        return value
+
+
+def _ingredients(node: ObjectNode) -> tuple[str, ...]:
+    """Return the contents that stand beside the states: those of `contains`, if it is there but once."""
+    found = [state for state in node.states if state.name == "contains"]
+    if len(found) == 1 and found[0].contents and found[0] == contains(*found[0].contents):
+        return found[0].contents
+    return ()
+
+
+def _motion_label(unit: FunctionalUnit) -> str:
+    return unit.motion + "*" * unit.annotation.composite
