@@ -67,12 +67,11 @@ def audit(
 ) -> Audit:
     """Find what is doubtful in a FOON, beside the `findings` of reading it.
 
-    Without a kitchen everything that no unit makes is taken to be at hand.
+    Without a kitchen, or with an empty one, everything that no unit makes is taken to be at hand.
     """
-    named_kitchen = kitchen is not None
-    if kitchen is None:
-        kitchen = Kitchen(())
-    if not kitchen.objects:
+    kitchen = kitchen or Kitchen(())
+    named_kitchen = bool(kitchen.objects)
+    if not named_kitchen:
         raw = {number for unit in foon.units for number in unit.inputs}
         made = {number for unit in foon.units for number in unit.outputs if not foon.objects[number].bare}
         objects = tuple(foon.objects[number] for number in sorted(raw - made))
@@ -213,7 +212,7 @@ _OF_UNIT = {
     "output-is-input": (Severity.NOTE, "{} is both input and output"),
     "content-appears": (Severity.WARNING, "{} contains {}, which no input of the unit names"),
     "content-vanishes": (Severity.NOTE, "{} contains {}, which no output of the unit names"),
-    "not-in-container": (Severity.WARNING, "{}, but the {} on the {} side does not contain it"),
+    "not-in-container": (Severity.WARNING, "{}, but on the {} side the {} does not contain it"),
     "never-runs": (Severity.WARNING, "this unit ({motion}) can never run"),
 }
 _OF_OBJECT = {

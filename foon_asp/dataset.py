@@ -8,28 +8,33 @@ from pathlib import Path
 
 from foon_asp.errors import InputError
 from foon_asp.files import read_objects, read_rates, read_utensils
-from foon_asp.findings import Finding
+from foon_asp.findings import Finding, Severity
 from foon_asp.graph import Foon, ObjectNode
 from foon_asp.kitchen import Kitchen
+from foon_asp.levels import FULL
 from foon_asp.open_foon import FoonFiles, FoonReader
 from foon_asp.problem import Domain
 from foon_asp.resources import built_in_data
 
-_BESIDE_A_FOON = frozenset({"motion.txt", "utensils.txt"})
+_BESIDE_A_FOON = frozenset({"motion.txt", "utensils.txt", "words.txt"})
 
 
 @dataclass(frozen=True, slots=True)
 class Dataset:
-    """What a folder holds. `findings` says what was odd in the FOON files."""
+    """What a folder holds.
+
+    `findings` says what was odd in the FOON files; `units_read` counts units before duplicates went.
+    """
 
     foon: Foon
     kitchen: Kitchen
     goals: tuple[ObjectNode, ...]
     findings: tuple[Finding, ...]
+    units_read: int
 
-    def domain(self, *, strict: bool = False) -> Domain:
-        """See the FOON from the kitchen."""
-        return Domain(self.foon, self.kitchen, strict=strict)
+    def domain(self, *, strict: bool = False, level: int = FULL) -> Domain:
+        """See the FOON from the kitchen, on a level of detail."""
+        return Domain(self.foon, self.kitchen, strict=strict, level=level)
 
 
 def read_foon(paths: Sequence[Path], strict: bool = False) -> FoonFiles:
@@ -43,8 +48,11 @@ def read_foon(paths: Sequence[Path], strict: bool = False) -> FoonFiles:
         reader.read(path)
     files = reader.finish()
     if not files.foon.units:
-        first = paths[0] if paths else "no file"
-        raise InputError(first, None, "an empty FOON: no functional unit", "name a FOON file")
+        problem = "an empty FOON: no functional unit"
+        for finding in files.findings:
+            if finding.severity > Severity.NOTE:
+                raise InputError(finding.file, finding.line, f"{finding.message}; {problem}")
+        raise InputError(paths[0] if paths else "no file", None, problem, "name a FOON file")
     return files
 
 
@@ -65,11 +73,13 @@ def load(
     utensils: str | Path | None = None,
     goals: str | Path | None = None,
     default_rate: float | None = None,
+    strict_format: bool = False,
 ) -> Dataset:
     """Load a data folder, the built-in one by default; files named one by one replace its own.
 
     A folder has `FOON.txt` or several subgraphs `*.txt`, and may have `kitchen.json`, `motion.txt`,
-    `utensils.txt` and `goal_nodes.json`. What the folder lacks is empty. Raises `InputError`.
+    `utensils.txt` and `goal_nodes.json`. What the folder lacks is empty. With `strict_format` anything
+    odd in a FOON file is an error. Raises `InputError`.
     """
     root = built_in_data() if folder is None else Path(folder)
     if not root.is_dir():
@@ -78,7 +88,7 @@ def load(
     foon_paths = [Path(path) for path in foon] or foon_files(root)
     if not foon_paths:
         raise InputError(root, None, "no FOON.txt and no other *.txt", "name FOON files with --foon")
-    files = read_foon(foon_paths)
+    files = read_foon(foon_paths, strict=strict_format)
     kitchen_path = _choose(kitchen, root / "kitchen.json")
     rates_path = _choose(rates, root / "motion.txt")
     utensils_path = _choose(utensils, root / "utensils.txt")
@@ -93,6 +103,7 @@ def load(
         ),
         goals=tuple(read_objects(goals_path)) if goals_path else (),
         findings=files.findings,
+        units_read=files.units_read,
     )
 
 

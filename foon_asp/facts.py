@@ -39,13 +39,16 @@ def quote(text: str) -> str:
 def facts(problem: Problem, *, rates_required: bool = False) -> str:
     """Return the facts of a problem, one statement a line, in the order of the FOON file.
 
-    With `rates_required` every unit must have a success rate, else `QueryError`.
+    With `rates_required` every unit must have a success rate, else `QueryError`. On level 1 the facts set
+    the constant `labels_only` of `units.lp`, so that no caller can forget it.
     """
     return "\n".join(_lines(problem, rates_required)) + "\n"
 
 
 def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
     domain = problem.domain
+    if domain.labels_only:
+        yield "#const labels_only = 1. [override]"
     labels: set[str] = set()
     for number in problem.objects:
         node = domain.node(number)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -78,7 +79,12 @@ def object_from_json(item: object, report: Report = quiet) -> ObjectNode:
     if not isinstance(label, str) or not clean(label):
         raise ValueError("'label' is missing or no text")
     ingredients = read_contents(_texts(item, "ingredients"), report)
-    states = [_state_from_json(state, report) for state in _states(item)]
+
+    def report_state(code: str, message: str) -> None:
+        if not (ingredients and code == "contains-without-braces"):
+            report(code, message)
+
+    states = [_state_from_json(state, report_state) for state in _states(item)]
     if ingredients:
         # The FOON API names the state beside its contents.
         states = [state for state in states if state != State("contains")]
@@ -97,8 +103,8 @@ def _states(item: dict[str, object]) -> list[object]:
     value = item.get(key)
     if value is None:
         return []
-    if not isinstance(value, list):
-        raise ValueError(f"{key!r} is not a list")
+    if not isinstance(value, list) or not all(isinstance(state, str | dict) for state in value):
+        raise ValueError(f"{key!r} is not a list of texts")
     return value
 
 
@@ -170,3 +176,19 @@ def _rows(path: Path) -> Iterator[tuple[int, str]]:
     for line, row in enumerate(read_string(path).splitlines(), 1):
         if row.strip() and not row.startswith("#"):
             yield line, row
+
+
+def write_atomically(path: Path, text: str) -> None:
+    """Write a UTF-8 file so that it is there whole or, whatever happens, as it was before.
+
+    Raises `InputError` if it cannot be written.
+    """
+    unfinished = path.with_name(f".{path.name}.part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        unfinished.write_bytes(text.encode("utf-8"))
+        unfinished.replace(path)
+    except OSError as error:
+        with suppress(OSError):
+            unfinished.unlink(missing_ok=True)
+        raise InputError(path, None, f"cannot be written ({error.strerror})") from None

@@ -18,12 +18,19 @@ from foon_asp.files import kind_of, object_from_json
 from foon_asp.findings import Finding
 from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, Mark, ObjectNode, Source, contains
 from foon_asp.oddities import oddity
-from foon_asp.state_syntax import Report, clean, object_to_json
-from foon_asp.text import LabelIds
-from foon_asp.unit_syntax import check_sides, check_times, parse_rate, parse_time, split_motion, time_text
+from foon_asp.state_syntax import clean, object_to_json, one_line
+from foon_asp.unit_syntax import (
+    LabelIds,
+    check_sides,
+    check_times,
+    parse_rate,
+    parse_time,
+    split_motion,
+    time_text,
+)
 
 _SPACE = re.compile(r"[ \t\r\n]*")
-_ADVICE = 'write [{"input_nodes": […], "motion_node": "…", "output_nodes": […]}, …]'
+JSON_ADVICE = 'write [{"input_nodes": […], "motion_node": "…", "output_nodes": […]}, …]'
 _NO_MARK = Mark()
 _OF_TEXT_ONLY = frozenset({"space-in-braces"})
 _LONGEST_NUMBER = 300
@@ -68,9 +75,7 @@ class _Document:
         except json.JSONDecodeError as error:
             raise InputError(self._path, error.lineno, f"not JSON: {error.msg}") from None
         except RecursionError:
-            raise InputError(
-                self._path, self._line, "not JSON that can be read: nested too deeply"
-            ) from None
+            raise InputError(self._path, self._line, "not JSON that can be read: nested too deeply") from None
 
     def _read_api(self) -> None:
         """Read `{"functional_units": [unit, …], "source": …}`, keys in any order."""
@@ -95,7 +100,7 @@ class _Document:
         self._take("}")
         if not found:
             problem = "not a FOON file: no list 'functional_units'"
-            raise InputError(self._path, 1, problem, _ADVICE)
+            raise InputError(self._path, 1, problem, JSON_ADVICE)
 
     def _read_units(self) -> None:
         self._take("[")
@@ -169,7 +174,7 @@ class JsonReader:
         if text.startswith("\ufeff"):
             self._line = 1
             self._report("byte-order-mark", "the file begins with a byte order mark")
-            text = text[1:]
+            text = text.lstrip("\ufeff")
         document = _Document(text.replace("\r\n", "\n").replace("\r", "\n"), Path(file))
         document.read()
         video = _one_line(document.source)
@@ -259,7 +264,8 @@ class JsonReader:
             return None
         rate = parse_rate(value)
         if rate is None:
-            self._report("broken-rate", f"'weight_success' is {str(value)[:60]!r}, no chance from 0 to 1")
+            said = repr(value) if isinstance(value, str | int | float) else kind_of(value)
+            self._report("broken-rate", f"'weight_success' is {said}, not a chance between 0 and 1")
         return rate
 
     def _add(
@@ -267,19 +273,15 @@ class JsonReader:
     ) -> None:
         left = [self._builder.object(node) for node in inputs]
         right = [self._builder.object(node) for node in outputs]
-        check_sides(left, right, self._report)
+        for code, message in check_sides(left, right):
+            self._report(code, message)
         if self._builder.unit(motion, left, right, note) is None:
             self._report("duplicate-unit", "this unit was there before")
 
 
 def _one_line(value: object) -> str:
     """Return a text as it can stand in one field; nothing if it is no text."""
-    return _cased(value) if isinstance(value, str) else ""
-
-
-def _cased(text: str) -> str:
-    plain = re.sub(r"[\x00-\x08\x0b-\x0c\x0e-\x1f\x7f-\x9f]", "", re.sub(r"[\t\r\n]+", " ", text))
-    return re.sub(r"[\ud800-\udfff]", "\ufffd", plain).strip()
+    return one_line(value) if isinstance(value, str) else ""
 
 
 def write_units(foon: Foon, units: Iterable[FunctionalUnit]) -> str:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Iterable
 
 from foon_asp.findings import Finding
+from foon_asp.state_syntax import without_control_characters
 
 OF_ROWS = frozenset(
     {"missing-tab", "contains-in-brackets", "place-in-braces", "stray-comma", "space-in-braces", "odd-flag"}
@@ -13,7 +14,7 @@ OF_ROWS = frozenset(
 """The codes that a change inside of one line can mend."""
 
 _DELETED = frozenset({"blank-line", "empty-unit"})
-_MENDED = OF_ROWS | _DELETED | {"byte-order-mark", "unit-not-closed"}
+_MENDED = OF_ROWS | _DELETED | {"byte-order-mark", "control-character", "unit-not-closed"}
 _LINE_END = re.compile(r"(\r\n|\r|\n)")
 _HEAD = re.compile(r"([OSM][0-9]*) +(?=[^ \t])")
 _GLUED = re.compile(r"(S[0-9]*\t[^\t\[\]{}]*[^\t\[\]{} ]) *(?=[\[{])")
@@ -72,8 +73,10 @@ def mend_text(text: str, findings: Iterable[Finding]) -> tuple[str, list[Finding
 
 def _mend_line(row: str, codes: set[str]) -> str | None:
     """Return a line mended, None if it is to be deleted."""
+    if "control-character" in codes:
+        row = without_control_characters(row)
     if "byte-order-mark" in codes:
-        row = row.removeprefix("\ufeff")
+        row = row.lstrip("\ufeff")
     return None if codes & _DELETED else mend_row(row, codes)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from foon_asp.errors import InputError
 from foon_asp.files import read_bytes
 from foon_asp.findings import Finding, Severity
-from foon_asp.foon_json import JsonReader
+from foon_asp.foon_json import JSON_ADVICE, JsonReader
 from foon_asp.graph import Foon, FoonBuilder
 from foon_asp.oddities import USUAL, oddity
 from foon_asp.text import TextReader
@@ -23,8 +23,10 @@ _WIDE = (
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
 _LINE = re.compile(rb"[^\r\n]*(?:\r\n|\r|\n|\Z)")
+_JSON = re.compile(r"[\s\x00-\x1f\x7f-\x9f\ufeff]*[\[{]")
 _PICKLE_SUFFIXES = frozenset({".pkl", ".pickle"})
 _NEWEST_PICKLE = 5
+_TEXT_ADVICE = "a unit is O and S lines, an M line, O and S lines, and '//'"
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +71,7 @@ class FoonReader:
         reader.read(text, str(path))
         findings += reader.findings
         if self._builder.read == read and (reader is self._json or self.units_reported == reported):
-            _refuse_unreadable(findings, path)
+            _refuse_unreadable(findings, path, JSON_ADVICE if reader is self._json else _TEXT_ADVICE)
         if self._strict:
             _refuse_odd(findings, path)
         self._findings += findings
@@ -113,7 +115,7 @@ def _decode_lines(data: bytes, file: str) -> tuple[str, list[Finding]]:
 
 def is_json(text: str) -> bool:
     """Tell whether a text is meant as JSON: no line of FOON text begins with a bracket."""
-    return text[:4096].lstrip("\ufeff \t\r\n").startswith(("[", "{"))
+    return _JSON.match(text) is not None
 
 
 def _refuse_pickle(data: bytes, path: Path) -> None:
@@ -127,15 +129,10 @@ def _refuse_pickle(data: bytes, path: Path) -> None:
         )
 
 
-def _refuse_unreadable(findings: list[Finding], path: Path) -> None:
+def _refuse_unreadable(findings: list[Finding], path: Path, advice: str) -> None:
     for finding in findings:
         if finding.severity is Severity.ERROR:
-            raise InputError(
-                path,
-                finding.line,
-                f"not a FOON file: {finding.message}",
-                "a unit is O and S lines, an M line, O and S lines, and '//'",
-            )
+            raise InputError(path, finding.line, f"not a FOON file: {finding.message}", advice)
 
 
 def _refuse_odd(findings: list[Finding], path: Path) -> None:

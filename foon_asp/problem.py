@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 from foon_asp.errors import QueryError, closest
 from foon_asp.graph import Foon, ObjectNode
 from foon_asp.kitchen import Kitchen
+from foon_asp.levels import FULL, check_level, planning_view, project, project_kitchen
 from foon_asp.reading import Closure, Reading
 
 
@@ -15,12 +16,24 @@ class Domain:
     """A FOON seen from a kitchen; everything that does not depend on the goal is worked out once.
 
     Kitchen objects that the FOON does not know get the ids after the FOON's own.
+
+    Below level 3 the domain is a view: what units need and make is read on level 3 and then projected,
+    and so is the kitchen. `foon` is the FOON of that view, with unit and object ids of its own; `images`
+    says for each unit of the full FOON which unit of the view it becomes.
     """
 
-    def __init__(self, foon: Foon, kitchen: Kitchen, *, strict: bool = False) -> None:
+    def __init__(self, foon: Foon, kitchen: Kitchen, *, strict: bool = False, level: int = FULL) -> None:
+        self.level = check_level(level)
+        self.strict = strict
+        self.images: Sequence[int] = range(len(foon.units))
+        if level != FULL:
+            # A FOON without any state was cut down to its labels before: nothing in it is a tool by that.
+            cut = level == 1 and all(node.bare for node in foon.objects)
+            reading = Reading(foon, kitchen.utensils, strict=strict, labels_only=cut)
+            foon, self.images = planning_view(foon, reading, level)
+            kitchen = project_kitchen(kitchen, level)
         self.foon = foon
         self.kitchen = kitchen
-        self.strict = strict
         ids: dict[int, None] = {}
         self.strangers: list[ObjectNode] = []
         for node in dict.fromkeys(kitchen.objects):
@@ -31,9 +44,18 @@ class Domain:
             ids[number] = None
         self.stock: dict[int, None] = ids
 
+    @property
+    def labels_only(self) -> bool:
+        """Whether nodes are labels alone, so that a bare one may well be made."""
+        return self.level == 1
+
+    def project(self, node: ObjectNode) -> ObjectNode:
+        """Return what the level of this domain shows of an object node."""
+        return project(node, self.level)
+
     @cached_property
     def reading(self) -> Reading:
-        return Reading(self.foon, self.kitchen.utensils, strict=self.strict)
+        return Reading(self.foon, self.kitchen.utensils, strict=self.strict, labels_only=self.labels_only)
 
     @cached_property
     def closure(self) -> Closure:
@@ -45,7 +67,11 @@ class Domain:
         return self.foon.objects[number] if number < known else self.strangers[number - known]
 
     def id_of(self, node: ObjectNode) -> int:
-        """Return the id of an object node; raise `QueryError` if neither FOON nor kitchen has it."""
+        """Return the id of an object node, seen on this level.
+
+        Raises `QueryError` if neither FOON nor kitchen has it.
+        """
+        node = self.project(node)
         number = self.foon.id_of(node)
         if number is None:
             if node in self.strangers:

@@ -27,13 +27,21 @@ class Reading:
     """What each unit needs and makes, given which labels are utensils.
 
     `needs[U]`: inputs that are not implied views; `makes[U]`: outputs that are not bare.
-    With `strict` every input is needed.
+    With `strict` every input is needed. With `labels_only` every output is made: where nodes are labels
+    alone, all are bare, and that does not tell a tool from a thing that is made.
     """
 
-    def __init__(self, foon: Foon, utensils: Collection[str], *, strict: bool = False) -> None:
+    def __init__(
+        self,
+        foon: Foon,
+        utensils: Collection[str],
+        *,
+        strict: bool = False,
+        labels_only: bool = False,
+    ) -> None:
         objects = foon.objects
         views = {} if strict else _views(objects, utensils)
-        bare = {number for number, node in enumerate(objects) if node.bare}
+        bare = set() if labels_only else {number for number, node in enumerate(objects) if node.bare}
         self.needs: list[Ids] = []
         self.makes: list[Ids] = []
         for unit in foon.units:

@@ -131,7 +131,9 @@ def unreachable_reason(problem: Problem) -> str:
         node = domain.node(goal)
         if goal not in makers:
             return f"no unit makes {node}" + (
-                "; it is bare (has no states), so only the kitchen can have it" if node.bare else ""
+                "; it is bare (has no states), so only the kitchen can have it"
+                if node.bare and not domain.labels_only
+                else ""
             )
         if problem.founded and goal not in domain.closure.available:
             return _locked(domain, goal)
@@ -218,7 +220,7 @@ def _optimal(problem: Problem, by: tuple[str, ...], deadline: float | None) -> F
         return "optimal", decode_tree(problem, answer), {}
     candidates = [each for each in (answer, first) if each is not None and each.atoms is not None]
     trees = [decode_tree(problem, each) for each in candidates]
-    lower = dict(zip(criteria, answer.bounds, strict=True))
+    lower = dict(zip(criteria, answer.bounds or [_BASE] * len(criteria), strict=True))
     bound = {name: _as_cost(name, max(0, lower[name] - _BASE)) for name in by}
     return "limit", min(trees, key=lambda tree: _key(tree, criteria)), bound
 

@@ -78,6 +78,8 @@ class Solver:
 
     def best(self, deadline: float | None = None) -> Answer:
         """Return the best model, or the best found until the deadline (`time.monotonic()` seconds)."""
+        if deadline is not None and time.monotonic() >= deadline:
+            return Answer(None, False)
         found: list[tuple[tuple[Atom, ...], tuple[int, ...]]] = []
 
         def on_model(model: clingo.Model) -> None:

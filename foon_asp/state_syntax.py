@@ -16,7 +16,8 @@ Report = Callable[[str, str], None]
 _STATE = re.compile(r"(?P<name>[^\[\]{}]*)(?P<rest>.*)", re.DOTALL)
 _GROUP = re.compile(r"\[(?P<relatum>[^\[\]{}]*)(?:\]|\Z)|\{(?P<contents>[^\[\]{}]*)(?:\}|\Z)")
 _BRACKET = re.compile(r"[\[\]{}]")
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+_CONTROL = dict.fromkeys([*range(9), *range(11, 32), *range(127, 160)])
+_SPACES = re.compile(r"[\t\r\n]+")
 _SURROGATE = re.compile(r"[\ud800-\udfff]")
 PLACES = frozenset({"in", "on", "under", "with", "inside", "attached to", "around", "between"})
 
@@ -27,15 +28,20 @@ def quiet(code: str, message: str) -> None:
 
 def without_control_characters(text: str) -> str:
     """Remove control characters but tab and newline: they would cut the strings of clingo short."""
-    return _CONTROL.sub("", text)
+    return text.translate(_CONTROL)
+
+
+def one_line(text: str) -> str:
+    """Return a text that may hold anything as it can stand in one field of a line."""
+    return _SURROGATE.sub("\ufffd", without_control_characters(_SPACES.sub(" ", text))).strip()
 
 
 def clean(text: str, report: Report = quiet) -> str:
     """Return the label in a text that may hold anything: one line, stripped, lower case."""
-    plain = _SURROGATE.sub("\ufffd", without_control_characters(re.sub(r"[\t\r\n]+", " ", text)))
-    if len(plain) != len(text) or "\ufffd" in plain:
+    plain = one_line(text)
+    if plain != text.strip():
         report("control-character", f"{text[:60]!r} is read as {plain[:60]!r}")
-    return plain.strip().lower()
+    return plain.lower()
 
 
 def parse_state(text: str, report: Report = quiet) -> State | None:

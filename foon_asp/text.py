@@ -16,8 +16,16 @@ from foon_asp.findings import Finding
 from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, Mark, ObjectNode, Source, State
 from foon_asp.mend import OF_ROWS, mend_row
 from foon_asp.oddities import oddity
-from foon_asp.state_syntax import Report, make_state, parse_state, without_control_characters
-from foon_asp.unit_syntax import check_sides, check_times, parse_rate, parse_time, split_motion, time_text
+from foon_asp.state_syntax import Report, make_state, one_line, parse_state, without_control_characters
+from foon_asp.unit_syntax import (
+    LabelIds,
+    check_sides,
+    check_times,
+    parse_rate,
+    parse_time,
+    split_motion,
+    time_text,
+)
 
 Dialect = Literal["A", "B"]
 
@@ -29,6 +37,8 @@ _LIKE_A_TIME = re.compile(r"[<\d]|assume|unknown|n/?a|-|$", re.IGNORECASE)
 _NOT_A_LABEL = re.compile(r"[\d!]*")
 
 _NO_MARK = Mark()
+_DOUBTFUL = frozenset({"unbalanced-brackets", "stray-text"})
+"""A line that is odd in one of these ways is not mended in others: what it means is not certain."""
 
 
 @dataclass(slots=True)
@@ -57,12 +67,21 @@ class _Unit:
     broken: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class _Motion:
+    """An `M` line once read: its label, what it notes beside, and what is odd in it (code, message)."""
+
+    label: str
+    note: Annotation
+    oddities: tuple[tuple[str, str], ...]
+
+
 _StateLine = tuple[State | None, tuple[tuple[str, str, str], ...]]
 """An `S` line once read: the state, if it says one, and what is odd in it (code, message, mend)."""
 
 
 class TextReader:
-    """Reads text files into one builder. Blocks and state lines recur, so each is read only once."""
+    """Reads text files into one builder. Blocks and lines recur, so each is read only once."""
 
     def __init__(self, builder: FoonBuilder) -> None:
         self.findings: list[Finding] = []
@@ -70,6 +89,7 @@ class TextReader:
         self._builder = builder
         self._blocks: dict[str, _Block] = {}
         self._states: dict[str, _StateLine] = {}
+        self._motions: dict[str, _Motion] = {}
         self._file = ""
         self._video = ""
 
@@ -96,17 +116,24 @@ class TextReader:
             start = end.end() if end else len(text)
 
     def _plain(self, text: str) -> str:
-        """Return the text with newlines only, without byte order mark and control characters."""
-        if text.startswith("\ufeff"):
-            self._report(1, "byte-order-mark", "the file begins with a byte order mark", "delete it")
-            text = text[1:]
+        """Return the text with newlines only, without byte order marks and control characters."""
         text = text.replace("\r\n", "\n").replace("\r", "\n")
         plain = without_control_characters(text)
         if len(plain) != len(text):
             for line, row in enumerate(text.split("\n"), 1):
                 count = len(row) - len(without_control_characters(row))
                 if count:
-                    self._report(line, "control-character", f"{count} control characters are left out")
+                    message = f"control characters, left out: {count}"
+                    self._report(line, "control-character", message, "delete them")
+        if "\ufeff" in plain:
+            # Files that were joined have the mark in the middle, too.
+            rows = plain.split("\n")
+            for line, row in enumerate(rows, 1):
+                if row.startswith("\ufeff"):
+                    self._report(
+                        line, "byte-order-mark", "the line begins with a byte order mark", "delete it"
+                    )
+            plain = "\n".join(row.lstrip("\ufeff") for row in rows)
         return plain
 
     def _check_end(self, row: str, line: int, found: bool, *, doubled: bool) -> None:
@@ -168,7 +195,7 @@ class TextReader:
         words = line.lstrip("# \t")
         kind = words[:7].lower()
         if kind == "source:":
-            self._video = words[7:].strip()
+            self._video = one_line(words[7:])
         elif kind[:5] == "from:" and not unit.line:
             unit.sources.append(_read_source(words[5:].strip(), self._video))
 
@@ -183,13 +210,13 @@ class TextReader:
             odd.append(("object-without-label", f"no label in {lines[0]!r}"))
         elif "\t" not in lines[0]:
             odd.append(("missing-tab", f"no tab in {lines[0]!r}"))
-        more = _label_fields(fields, _NOT_A_LABEL.fullmatch) if label else 0
+        more = _label_fields(fields, _NOT_A_LABEL.fullmatch) if label and len(fields) > 1 else 0
         if more:
             label = " ".join([label, *fields[1 : 1 + more]]).lower()
             odd.append(("tab-in-label", f"a tab inside of a label, read as {label!r}"))
-        mark = _read_mark(fields[1 + more :], odd)
+        mark = _read_mark(fields[1 + more :], odd) if len(fields) > 1 else _NO_MARK
         oddities = [(0, code, message, _row_mend(lines[0], code)) for code, message in odd]
-        states: list[State] = []
+        states: dict[State, None] = {}
         for offset, row in enumerate(lines[1:], 1):
             known = self._states.get(row)
             if known is None:
@@ -199,8 +226,10 @@ class TextReader:
             if state is not None:
                 if state in states:
                     oddities.append((offset, "duplicate-state", f"{str(state)!r} is said twice", ""))
-                states.append(state)
-        node = ObjectNode.of(label, states) if label else None
+                states[state] = None
+        node = None
+        if label:
+            node = ObjectNode.of(label, states) if len(states) > 1 else ObjectNode(label, tuple(states))
         return _Block(node, mark, tuple(oddities), len(lines))
 
     def _finish(self, unit: _Unit) -> bool:
@@ -213,23 +242,20 @@ class TextReader:
             place = unit.motions[1][0]
             self._report(place, "two-motions", "two motions: a '//' is missing; units left out")
         elif not unit.broken:
-            note = self._read_motion(unit, *unit.motions[0])
-            if note is not None:
-                motion, annotation = note
-                self._add(unit, motion, annotation)
+            motion = self._motion(*unit.motions[0])
+            if motion.label:
+                self._add(unit, motion.label, self._annotation(unit, motion))
                 return True
         self.reported_units += max(1, len(unit.motions))
         return True
 
     def _add(self, unit: _Unit, motion: str, note: Annotation) -> None:
-        def report(code: str, message: str) -> None:
-            self._report(unit.line, code, message)
-
         inputs = [b.number if b.number >= 0 else self._number(b) for b in unit.inputs]
         outputs = [b.number if b.number >= 0 else self._number(b) for b in unit.outputs]
-        check_sides(inputs, outputs, report)
+        for code, message in check_sides(inputs, outputs):
+            self._report(unit.line, code, message)
         if self._builder.unit(motion, inputs, outputs, note) is None:
-            report("duplicate-unit", "this unit was there before")
+            self._report(unit.line, "duplicate-unit", "this unit was there before")
 
     def _number(self, block: _Block) -> int:
         """Give a block's object its id; objects of units that are left out never get one."""
@@ -237,56 +263,68 @@ class TextReader:
         block.number = self._builder.object(block.node)
         return block.number
 
-    def _read_motion(self, unit: _Unit, line: int, row: str) -> tuple[str, Annotation] | None:
-        """Read `M<id?> label [start end | start-end] [agent rate]`; None if it has no label."""
-        fields = _fields(row)
-        label, composite = split_motion(fields[0].lower()) if fields else ("", False)
-        if not label:
-            self._report(line, "motion-without-label", f"no label in {row!r}; the unit is left out")
-            return None
-        if "\t" not in row:
-            self._report(line, "missing-tab", f"no tab in {row!r}", _row_mend(row, "missing-tab"))
-        more = _label_fields(fields, _LIKE_A_TIME.match)
-        if more and len(fields) > 1 + more:
-            label, composite = split_motion(" ".join(fields[: 1 + more]).lower())
-            del fields[1 : 1 + more]
-            self._report(line, "tab-in-label", f"a tab inside of a label, read as {label!r}")
-        start, end, rest = self._read_times(fields[1:], line)
-        agent = rest[0] if rest else ""
-        rate = None
-        if len(rest) > 1 and rest[1]:
-            rate = parse_rate(rest[1])
-            if rate is None:
-                self._report(line, "broken-rate", f"{rest[1]!r} is not a chance between 0 and 1")
-        if len(rest) > 2:
-            self._report(line, "stray-field", f"{rest[2]!r} behind the success rate is left out")
-        return label, Annotation(
-            sources=tuple(unit.sources) or (Source(self._file, unit.line, self._video),),
-            composite=composite,
-            start=start,
-            end=end,
-            agent=agent,
-            rate=rate,
-            marks=_marks(unit),
-        )
+    def _annotation(self, unit: _Unit, motion: _Motion) -> Annotation:
+        sources = tuple(unit.sources) or (Source(self._file, unit.line, self._video),)
+        note = motion.note
+        return Annotation(sources, note.composite, note.start, note.end, note.agent, note.rate, _marks(unit))
 
-    def _read_times(self, fields: list[str], line: int) -> tuple[float | None, float | None, list[str]]:
-        """Take the times from the front of the fields; return start, end (seconds) and the rest."""
-        if not fields:
-            return None, None, []
-        first = fields[0].strip("<>")
-        joined = "-" in first.strip("-")
-        texts = first.split("-", 1) if joined else [first, *fields[1:2]]
-        times: list[float | None] = []
-        for text in texts:
-            try:
-                times.append(parse_time(text.strip("<> ")))
-            except ValueError as error:
-                self._report(line, "broken-time", str(error))
-                times.append(None)
-        start, end = [*times, None][:2]
-        check_times(start, end, lambda code, message: self._report(line, code, message))
-        return start, end, fields[1:] if joined else fields[2:]
+    def _motion(self, line: int, row: str) -> _Motion:
+        """Read an `M` line, and report what is odd in it."""
+        motion = self._motions.get(row)
+        if motion is None:
+            motion = self._motions[row] = _read_motion(row)
+        for code, message in motion.oddities:
+            self._report(line, code, message, _row_mend(row, code))
+        return motion
+
+
+def _read_motion(row: str) -> _Motion:
+    """Read `M<id?> label [start end | start-end] [agent rate]`; the label is empty if there is none."""
+    odd: list[tuple[str, str]] = []
+    fields = _fields(row)
+    label, composite = split_motion(fields[0].lower()) if fields else ("", False)
+    if not label:
+        odd.append(("motion-without-label", f"no label in {row!r}; the unit is left out"))
+        return _Motion("", Annotation(), tuple(odd))
+    if "\t" not in row:
+        odd.append(("missing-tab", f"no tab in {row!r}"))
+    more = _label_fields(fields, _LIKE_A_TIME.match)
+    if more and len(fields) > 1 + more:
+        label, composite = split_motion(" ".join(fields[: 1 + more]).lower())
+        del fields[1 : 1 + more]
+        odd.append(("tab-in-label", f"a tab inside of a label, read as {label!r}"))
+    start, end, rest = _read_times(fields[1:], odd)
+    agent = rest[0] if rest else ""
+    rate = None
+    if len(rest) > 1 and rest[1]:
+        rate = parse_rate(rest[1])
+        if rate is None:
+            odd.append(("broken-rate", f"{rest[1]!r} is not a chance between 0 and 1"))
+    if len(rest) > 2:
+        odd.append(("stray-field", f"{rest[2]!r} behind the success rate is left out"))
+    note = Annotation(composite=composite, start=start, end=end, agent=agent, rate=rate)
+    return _Motion(label, note, tuple(odd))
+
+
+def _read_times(
+    fields: list[str], odd: list[tuple[str, str]]
+) -> tuple[float | None, float | None, list[str]]:
+    """Take the times from the front of the fields; return start, end (seconds) and the rest."""
+    if not fields:
+        return None, None, []
+    first = fields[0].strip("<>")
+    joined = "-" in first.strip("-")
+    texts = first.split("-", 1) if joined else [first, *fields[1:2]]
+    times: list[float | None] = []
+    for text in texts:
+        try:
+            times.append(parse_time(text.strip("<> ")))
+        except ValueError as error:
+            odd.append(("broken-time", str(error)))
+            times.append(None)
+    start, end = [*times, None][:2]
+    check_times(start, end, lambda code, message: odd.append((code, message)))
+    return start, end, fields[1:] if joined else fields[2:]
 
 
 def _read_source(text: str, video: str) -> Source:
@@ -300,7 +338,7 @@ def _read_source(text: str, video: str) -> Source:
 def _marks(unit: _Unit) -> tuple[Mark, ...]:
     """Return the marks of inputs and outputs; nothing if none is marked."""
     marks = tuple([block.mark for block in unit.inputs] + [block.mark for block in unit.outputs])
-    return () if all(mark is _NO_MARK for mark in marks) else marks
+    return () if marks.count(_NO_MARK) == len(marks) else marks
 
 
 def _fields(row: str) -> list[str]:
@@ -347,8 +385,9 @@ def _read_state(row: str) -> _StateLine:
         return None, (("blank-line", "a blank line", "delete the line"),)
     odd: list[tuple[str, str]] = []
     state = _state_of(row, lambda code, message: odd.append((code, message)))
-    codes = OF_ROWS.intersection(code for code, _ in odd)
-    mend = _state_mend(row, state, codes) if codes else ""
+    found = {code for code, _ in odd}
+    codes = OF_ROWS & found
+    mend = _state_mend(row, state, codes) if codes and _DOUBTFUL.isdisjoint(found) else ""
     return state, tuple((code, message, mend if code in codes else "") for code, message in odd)
 
 
@@ -462,28 +501,6 @@ class _Annotated:
         label = unit.motion + "*" * note.composite
         fields = [label, time_text(note.start), time_text(note.end), note.agent, rate]
         return f"M{self._ids.motions[unit.motion]}\t" + "\t".join(fields).rstrip("\t")
-
-
-@dataclass(frozen=True, slots=True)
-class LabelIds:
-    """The numbers that the labels of some units get when ids are to be written: their sorted places."""
-
-    objects: dict[str, int]
-    states: dict[str, int]
-    motions: dict[str, int]
-
-    @classmethod
-    def of(cls, foon: Foon, units: Sequence[FunctionalUnit]) -> LabelIds:
-        nodes = [foon.objects[o] for o in {o for unit in units for o in unit.inputs + unit.outputs}]
-        return cls(
-            _numbered({node.label for node in nodes}),
-            _numbered({state.name for node in nodes for state in node.states}),
-            _numbered({unit.motion for unit in units}),
-        )
-
-
-def _numbered(labels: set[str]) -> dict[str, int]:
-    return {label: number for number, label in enumerate(sorted(labels))}
 
 
 def object_lines(node: ObjectNode) -> list[str]:

@@ -1,9 +1,12 @@
-"""What the formats share of a functional unit: motion labels, times, rates, and the check of its sides."""
+"""What the formats share of a functional unit: motion labels, times, rates, sides, ids of labels."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 
+from foon_asp.graph import Foon, FunctionalUnit
 from foon_asp.state_syntax import Report
 
 _TIME = re.compile(r"(?:([0-9]{1,6}):)?([0-9]{1,6}):([0-9]{1,2})(?:\.([0-9]+))?")
@@ -59,10 +62,36 @@ def check_times(start: float | None, end: float | None, report: Report) -> None:
         report("times-backwards", f"the motion ends ({time_text(end)}) before it starts")
 
 
-def check_sides(inputs: list[int], outputs: list[int], report: Report) -> None:
-    """Report a side of a unit that is empty or lists an object twice."""
+def check_sides(inputs: list[int], outputs: list[int]) -> list[tuple[str, str]]:
+    """Return code and message of each side of a unit that is empty or lists an object twice."""
+    if inputs and outputs and len(set(inputs)) == len(inputs) and len(set(outputs)) == len(outputs):
+        return []
+    found = []
     for side, numbers in (("input", inputs), ("output", outputs)):
         if not numbers:
-            report(f"unit-without-{side}s", f"a unit without {side}s")
+            found.append((f"unit-without-{side}s", f"a unit without {side}s"))
         elif len(set(numbers)) != len(numbers):
-            report(f"duplicate-{side}", f"an {side} is listed twice")
+            found.append((f"duplicate-{side}", f"an {side} is listed twice"))
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class LabelIds:
+    """The numbers that the labels of some units get when ids are to be written: their sorted places."""
+
+    objects: dict[str, int]
+    states: dict[str, int]
+    motions: dict[str, int]
+
+    @classmethod
+    def of(cls, foon: Foon, units: Sequence[FunctionalUnit]) -> LabelIds:
+        nodes = [foon.objects[o] for o in {o for unit in units for o in unit.inputs + unit.outputs}]
+        return cls(
+            _numbered({node.label for node in nodes}),
+            _numbered({state.name for node in nodes for state in node.states}),
+            _numbered({unit.motion for unit in units}),
+        )
+
+
+def _numbered(labels: set[str]) -> dict[str, int]:
+    return {label: number for number, label in enumerate(sorted(labels))}

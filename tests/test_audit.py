@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from conftest import ROOT
 
 from foon_asp.audit import Audit, audit
 from foon_asp.dataset import Dataset
@@ -182,3 +184,17 @@ def test_locks_account_for_every_unit_that_never_runs(universal: Dataset, univer
 def test_findings_point_at_lines_of_the_file(public_data: Path, universal_audit: Audit) -> None:
     lines = (public_data / "universal" / "FOON.txt").read_text().count("\n")
     assert all(1 <= finding.line <= lines for finding in universal_audit.findings)
+
+
+def test_docs_list_every_code_of_the_audit() -> None:
+    text = (ROOT / "docs" / "audit.md").read_text()
+    documented = set(re.findall(r"^\| `([a-z-]+)` \|", text, re.MULTILINE))
+    sources = [ROOT / "foon_asp" / "audit.py", ROOT / "encodings" / "audit.lp"]
+    used = set()
+    for path in sources:
+        used |= set(
+            re.findall(
+                r'(?:warning\(|_finding\(\s*|Finding\(|yield _finding\(\s*)"([a-z-]+)"', path.read_text()
+            )
+        )
+    assert documented == used

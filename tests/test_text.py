@@ -9,7 +9,7 @@ import pytest
 from foon_asp.dataset import Dataset, read_foon
 from foon_asp.errors import InputError
 from foon_asp.findings import Finding
-from foon_asp.graph import Foon, FoonBuilder, ObjectNode, State, contains, inside
+from foon_asp.graph import Foon, FoonBuilder, ObjectNode, Source, State, contains, inside
 from foon_asp.text import TextReader, write_text
 
 UNIT_B = "//\nO\tonion\nS\twhole\nO\tknife\nM\tchop\nO\tonion\nS\tchopped\nO\tknife\n//\n"
@@ -95,6 +95,15 @@ def test_duplicate_units_are_merged_and_keep_both_places() -> None:
         ("O\ta\nM\tx\nS\thot\nO\tb\n//\n", [("state-of-motion", 3)]),
         ("\ufeffO\ta\nM\tx\nO\tb\n//\n", [("byte-order-mark", 1)]),
         ("O\t\nM\tx\nO\tb\n//\n", [("object-without-label", 1)]),
+        ("O\ta b\tc\t1\nM\tx\nO\tb\n//\n", [("tab-in-label", 1)]),
+        ("O\ta\nM\tput\tin\t1:00\t1:10\nO\tb\n//\n", [("tab-in-label", 2)]),
+        ("O\ta\nM\tx\t1:00\t1:10\trobot\t0.5\tmore\nO\tb\n//\n", [("stray-field", 2)]),
+        ("O\ta\nM\tx\t1:00\t1:10\trobot\t1.5\nO\tb\n//\n", [("broken-rate", 2)]),
+        ("O\ta\nM\tx\t99999999999:00\t1:10\nO\tb\n//\n", [("broken-time", 2)]),
+        ("O\ta\nS\twith\t[b] [c]\nM\tx\nO\tb\n//\n", [("stray-text", 2)]),
+        ("O\ta\nS\tin\t[{x}]\nM\tx\nO\tb\n//\n", [("stray-text", 2), ("place-in-braces", 2)]),
+        ("O\ta\nM\tx\nO\tb\n// O\tc\n", [("stray-text", 4)]),
+        ("O\ta\x00\nM\tx\nO\tb\n//\n", [("control-character", 1)]),
         ("O\ta\nM\t*\nO\tb\n//\n", [("motion-without-label", 2)]),
     ],
 )
@@ -118,12 +127,17 @@ def _read_file(name: str, text: str) -> Foon:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
         path.write_text(text)
-        return read_foon([path])[0]
+        return read_foon([path]).foon
 
 
 def test_an_empty_file_is_an_empty_foon() -> None:
     with pytest.raises(InputError, match="an empty FOON"):
         _read_file("FOON.txt", "")
+
+
+def test_an_empty_foon_names_what_was_left_out() -> None:
+    with pytest.raises(InputError, match=r"x\.txt:1: a unit without a motion is left out; an empty FOON"):
+        _read_file("x.txt", "O\tonion\n//\n")
 
 
 def test_built_in_data_survives_writing(built_in: Dataset) -> None:
@@ -148,9 +162,42 @@ def test_universal_foon_survives_writing(universal: Dataset) -> None:
 
 
 def test_subgraphs_merge_into_a_universal_foon(public_data: Path) -> None:
-    foon, findings = read_foon(sorted((public_data / "subgraphs").glob("*.txt")))
-    read_units = len(foon.units) + foon.duplicates
+    files = read_foon(sorted((public_data / "subgraphs").glob("*.txt")))
     motions = sum(path.read_text().count("\nM") for path in (public_data / "subgraphs").glob("*.txt"))
-    assert read_units == motions
-    assert [f.code for f in findings].count("unit-without-motion") == 1
-    assert len(foon.marked_goals()) == 56
+    assert files.units_read == len(files.foon.units) + files.foon.duplicates == motions
+    assert [f.code for f in files.findings].count("unit-without-motion") == files.units_reported == 1
+    assert len(files.foon.marked_goals()) == 56
+
+
+def test_annotated_writing() -> None:
+    foon, _ = read(UNIT_A + UNIT_B)
+    assert write_text(foon, foon.units, ["two\nlines"], "A") == (
+        "# two lines\n//\n# Source:\thttp://one\nO2\tolive oil\t1\nS3\tin\t[bottle]\nO0\tbowl\t0\n"
+        "S2\tempty\nM1\tpour*\t1:02\t1:10\trobot\t0.9\nO0\tbowl\t0\t8\nS1\tcontains\t{olive oil}\n//\n"
+        "O3\tonion\nS4\twhole\nO1\tknife\nM0\tchop\tAssumed\tAssumed\nO3\tonion\nS0\tchopped\n"
+        "O1\tknife\n//\n"
+    )
+
+
+def test_provenance_is_written_and_read_back() -> None:
+    foon, _ = read(UNIT_A + UNIT_B + UNIT_A.replace("one", "two"))
+    text = write_text(foon, foon.units, provenance=True)
+    assert text.startswith(
+        "//\n# Source:\thttp://one\n# From:\tx.txt:3\n# Source:\thttp://two\n# From:\tx.txt:22\nO\tolive"
+    )
+    again, _ = read(text)
+    assert again.units[0].annotation.sources == (
+        Source("x.txt", 3, "http://one"),
+        Source("x.txt", 22, "http://two"),
+    )
+    assert [unit.annotation.sources for unit in again.units] == [u.annotation.sources for u in foon.units]
+
+
+def test_a_comment_inside_of_a_unit_is_no_provenance() -> None:
+    foon, _ = read("O\ta\n# From:\ty.txt:7\nM\tx\nO\tb\n//\n")
+    assert foon.units[0].source == Source("x.txt", 1)
+
+
+def test_objects_of_units_left_out_are_not_in_the_graph() -> None:
+    foon, _ = read("O\tlost\n//\n" + UNIT_B)
+    assert "lost" not in foon.labels

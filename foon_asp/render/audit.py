@@ -21,7 +21,10 @@ def audit_text(report: Audit, least: Severity) -> str:
         for place, finding in zip(places, shown, strict=True)
     ]
     counts = Counter(finding.severity for finding in report.findings)
-    total = ", ".join(f"{counts[severity]} {severity.word}s" for severity in reversed(Severity))
+    total = ", ".join(
+        f"{counts[severity]} {severity.word}{'' if counts[severity] == 1 else 's'}"
+        for severity in reversed(Severity)
+    )
     hidden = len(report.findings) - len(shown)
     lines.append(f"{total}" + (f" ({hidden} not shown)" if hidden else ""))
     return "\n".join(lines) + "\n"

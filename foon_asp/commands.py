@@ -1,0 +1,337 @@
+"""What each command of the command line does: open the data, ask, write the answer, say how it ended.
+
+Modules that only one command needs are imported there: a first answer should not wait for them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+from foon_asp.dataset import Dataset, load
+from foon_asp.errors import InputError, QueryError, closest
+from foon_asp.files import read_objects, write_atomically
+from foon_asp.findings import Finding, Severity
+from foon_asp.goals import find_goal
+from foon_asp.graph import ObjectNode
+from foon_asp.levels import FULL
+from foon_asp.problem import Domain, Problem
+from foon_asp.render.json import dumps
+
+FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
+"""Exit statuses; an audit that is told to fail uses 1, too."""
+
+_SHOWN = 3
+"""How many warnings of one kind are written out."""
+
+
+def warn(message: str) -> None:
+    """Write a warning to standard error."""
+    sys.stderr.write(f"foon-asp: warning: {message}\n")
+
+
+def _load(options: argparse.Namespace) -> Dataset:
+    """Load what the options name, and warn of what was left out in reading it.
+
+    Files named one by one bring what lies beside the first of them, if no folder is named.
+    """
+    files = getattr(options, "files", [])
+    folder = options.data
+    if files and folder is None:
+        folder = Path(files[0]).parent
+    return load(
+        folder,
+        foon=files or options.foon,
+        kitchen=options.kitchen,
+        rates=options.rates,
+        utensils=options.utensils,
+        goals=getattr(options, "goals", None) if files else None,
+        default_rate=options.default_rate,
+        strict_format=options.strict_format,
+    )
+
+
+def _open(options: argparse.Namespace) -> tuple[Dataset, Domain]:
+    """Load the data as a domain, and warn of what cannot be meant."""
+    dataset = _load(options)
+    _warn_of_losses(dataset.findings)
+    domain = dataset.domain(strict=options.strict, level=options.level)
+    for node in domain.strangers[:_SHOWN]:
+        warn(f"the kitchen has {node}, which the FOON does not know{_nearest(domain, node)}")
+    if len(domain.strangers) > _SHOWN:
+        warn(f"and {len(domain.strangers) - _SHOWN} more objects that the FOON does not know")
+    if not dataset.kitchen.objects:
+        warn("the kitchen is empty, nothing is at hand; name one with --kitchen")
+    return dataset, domain
+
+
+def _warn_of_losses(findings: Sequence[Finding]) -> None:
+    for finding in findings:
+        if finding.severity is Severity.ERROR:
+            warn(f"{finding.file}:{finding.line}: {finding.message}")
+
+
+def _nearest(domain: Domain, node: ObjectNode) -> str:
+    """Return the closest node, looking for the label first: that is quick and what people mistype."""
+    same_label = [str(other) for other in domain.foon.objects if other.label == node.label]
+    if same_label:
+        return closest(str(node), same_label, 1) or f"; there is {same_label[0]}"
+    return closest(node.label, domain.foon.labels, 1)
+
+
+def _find_goals(
+    options: argparse.Namespace, dataset: Dataset, domain: Domain, named: Sequence[str]
+) -> list[ObjectNode]:
+    """Return the goals that were named one by one and in a file, seen on the level of the domain."""
+    goals = [_find_goal(options, dataset, domain, text) for text in named]
+    if options.goals is not None:
+        listed = read_objects(Path(options.goals))
+        if not listed:
+            raise QueryError(f"{options.goals}: the list of goals is empty")
+        for node in listed:
+            domain.id_of(node)
+        goals += [domain.project(node) for node in listed]
+    return goals
+
+
+def _find_goal(options: argparse.Namespace, dataset: Dataset, domain: Domain, text: str) -> ObjectNode:
+    """Return the goal that a text names on the level of the domain, or else on the full level."""
+    try:
+        return find_goal(domain, text, [domain.project(goal) for goal in dataset.goals])
+    except QueryError:
+        if domain.level == FULL:
+            raise
+        return domain.project(find_goal(dataset.domain(strict=options.strict), text, dataset.goals))
+
+
+def run_retrieve(options: argparse.Namespace) -> int:
+    """Retrieve task trees."""
+    from foon_asp.render.json import retrieval_value
+    from foon_asp.render.text import retrieval_text
+    from foon_asp.retrieve import check_method, retrieve
+
+    if (options.goal is None) == (options.goals is None):
+        raise QueryError("name one GOAL, or a file of them with --goals")
+    check_method(options.method, options.by, not options.reference)
+    dataset, domain = _open(options)
+    goals = _find_goals(options, dataset, domain, [] if options.goal is None else [options.goal])
+    results = []
+    for place, goal in enumerate(goals):
+        result = retrieve(
+            domain,
+            goal,
+            options.method,
+            options.by,
+            founded=not options.reference,
+            time_limit=options.time_limit,
+        )
+        results.append(result)
+        if options.format == "text":
+            sys.stdout.write(("\n" if place else "") + retrieval_text(result))
+        elif options.format == "foon":
+            _write_tree(result)
+    if options.format == "json":
+        values = [retrieval_value(result) for result in results]
+        sys.stdout.write(dumps(values[0] if options.goals is None else values))
+    statuses = {result.status for result in results}
+    if "limit" in statuses:
+        return LIMIT
+    return UNREACHABLE if "unreachable" in statuses else FOUND
+
+
+def _write_tree(result: object) -> None:
+    from foon_asp.retrieve import Retrieval
+    from foon_asp.text import write_text
+
+    assert isinstance(result, Retrieval)
+    if result.tree is None:
+        reason = f"no task tree: {result.reason}" if result.reason else "no task tree in time"
+        sys.stderr.write(f"foon-asp: {result.goal}: {reason}\n")
+        return
+    comments = [f"Goal:\t{result.goal}", f"Method:\t{result.method} {','.join(result.by)}".rstrip()]
+    if not result.tree.executable:
+        comments.append("NOT EXECUTABLE")
+    sys.stdout.write(write_text(result.tree.domain.foon, result.tree.steps, comments))
+
+
+def run_reach(options: argparse.Namespace) -> int:
+    """Say what the kitchen can make."""
+    from foon_asp.render.json import reach_value
+    from foon_asp.render.text import reach_text
+    from foon_asp.retrieve import reach
+
+    _, domain = _open(options)
+    available, executable = reach(domain)
+    if options.format == "json":
+        sys.stdout.write(dumps(reach_value(domain, available, executable)))
+    else:
+        sys.stdout.write(reach_text(domain, available, executable, listing=options.list))
+    return FOUND
+
+
+def run_compare(options: argparse.Namespace) -> int:
+    """Compare all methods."""
+    from foon_asp.compare import compare
+    from foon_asp.render.json import comparison_value
+    from foon_asp.render.text import comparison_text
+
+    dataset, domain = _open(options)
+    goals = _find_goals(options, dataset, domain, options.goal)
+    goals = goals or list(dict.fromkeys(map(domain.project, dataset.goals)))
+    if not goals:
+        raise QueryError("no goals: name some, or a file of them with --goals")
+    rows = compare(domain, goals, time_limit=options.time_limit)
+    if options.format == "json":
+        sys.stdout.write(dumps(comparison_value(rows)))
+    else:
+        sys.stdout.write(comparison_text(rows))
+    return LIMIT if any(row.cells["optimal"].proven is False for row in rows) else FOUND
+
+
+def run_facts(options: argparse.Namespace) -> int:
+    """Print the facts that clingo is given."""
+    from foon_asp.facts import facts
+
+    dataset, domain = _open(options)
+    named = [_find_goal(options, dataset, domain, text) for text in options.goal]
+    goals = tuple(domain.id_of(goal) for goal in named)
+    whole = options.whole or not goals
+    sys.stdout.write(facts(Problem(domain, goals, founded=not options.reference, whole=whole)))
+    return FOUND
+
+
+def run_goals(options: argparse.Namespace) -> int:
+    """List the goals of the data folder."""
+    from foon_asp.state_syntax import object_to_json
+
+    dataset, domain = _open(options)
+    goals = list(dict.fromkeys(map(domain.project, dataset.goals)))
+    if options.format == "json":
+        sys.stdout.write(dumps([object_to_json(goal) for goal in goals]))
+        return FOUND
+    for goal in goals:
+        reachable = domain.foon.id_of(goal) in domain.closure.available
+        sys.stdout.write(f"{goal}{'' if reachable else '  (this kitchen cannot make it)'}\n")
+    return FOUND
+
+
+def run_audit(options: argparse.Namespace) -> int:
+    """Find what is wrong in FOON files."""
+    from foon_asp.audit import audit
+    from foon_asp.render.audit import audit_text, audit_value
+    from foon_asp.render.sarif import sarif_value
+
+    if (options.fix or options.fix_dir) and not options.files:
+        raise QueryError("name the files to repair: foon-asp audit --fix FILE…")
+    dataset = _load(options)
+    report = audit(dataset.foon, dataset.kitchen, dataset.goals, dataset.findings)
+    if options.format == "json":
+        sys.stdout.write(dumps(audit_value(report)))
+    elif options.format == "sarif":
+        sys.stdout.write(dumps(sarif_value(report.findings, version("foon-asp"))))
+    else:
+        sys.stdout.write(audit_text(report, Severity[options.severity.upper()]))
+    if options.fix or options.fix_dir:
+        for name in options.files:
+            _fix(Path(name), None if options.fix_dir is None else Path(options.fix_dir))
+    worst = max((finding.severity for finding in report.findings), default=None)
+    if options.fail_on and worst is not None and worst >= Severity[options.fail_on.upper()]:
+        return UNREACHABLE
+    return FOUND
+
+
+def _fix(path: Path, folder: Path | None) -> None:
+    """Write a copy of a text file with the certain mends, and list them on standard error."""
+    from foon_asp.files import read_bytes
+    from foon_asp.mend import mend_text
+    from foon_asp.open_foon import FoonReader, decode, is_json
+
+    data = read_bytes(path)
+    text, _ = decode(data, str(path))
+    if is_json(text):
+        warn(f"{path}: only text files can be repaired")
+        return
+    reader = FoonReader()
+    reader.read_data(data, path)
+    mended, mends = mend_text(text, reader.finish().findings)
+    target = path.with_name(f"{path.stem}.fixed{path.suffix}") if folder is None else folder / path.name
+    if target.resolve() == path.resolve():
+        raise InputError(target, None, "a repaired copy would replace the file", "name another folder")
+    write_atomically(target, mended)
+    for finding in mends:
+        sys.stderr.write(f"{finding.file}:{finding.line}: {finding.code}: {finding.mend}\n")
+    sys.stderr.write(f"foon-asp: {target}: {len(mends)} mends\n")
+
+
+def run_stats(options: argparse.Namespace) -> int:
+    """Count what is in a FOON."""
+    from foon_asp.levels import at_level
+    from foon_asp.render.stats import statistics_text, statistics_value
+    from foon_asp.stats import centralities, statistics
+
+    dataset = _load(options)
+    foon = at_level(dataset.foon, options.level)
+    counts = statistics(foon, dataset.units_read, dataset.findings)
+    central = centralities(foon) if options.centrality else None
+    if options.format == "json":
+        sys.stdout.write(dumps(statistics_value(counts, central)))
+    else:
+        sys.stdout.write(statistics_text(counts, central))
+    return FOUND
+
+
+def run_convert(options: argparse.Namespace) -> int:
+    """Write FOON files in another format."""
+    from foon_asp.convert import choose_format
+    from foon_asp.dataset import read_foon
+
+    out = Path(options.output)
+    if out.is_dir():
+        if options.to is None:
+            raise QueryError("name the format with --to where the output is a folder")
+        for name in options.files:
+            files = read_foon([Path(name)], strict=options.strict_format)
+            _warn_of_losses(files.findings)
+            form = choose_format(files.foon, out, options.to)
+            target = out / (Path(name).stem + form.suffix)
+            _refuse_same(target, [name])
+            write_atomically(target, form.write(files.foon))
+            sys.stderr.write(f"foon-asp: {target}: {len(files.foon.units)} units ({form.name})\n")
+        return FOUND
+    files = read_foon([Path(name) for name in options.files], strict=options.strict_format)
+    _warn_of_losses(files.findings)
+    form = choose_format(files.foon, out, options.to)
+    write_atomically(out, form.write(files.foon))
+    sys.stderr.write(f"foon-asp: {out}: {len(files.foon.units)} units ({form.name})\n")
+    return FOUND
+
+
+def _refuse_same(target: Path, names: Sequence[str]) -> None:
+    if target.resolve() in {Path(name).resolve() for name in names}:
+        raise InputError(target, None, "this would replace an input", "name another folder")
+
+
+def run_merge(options: argparse.Namespace) -> int:
+    """Merge FOON files into a universal FOON."""
+    from foon_asp.dataset import read_foon
+    from foon_asp.levels import at_level
+    from foon_asp.text import write_text
+
+    files = read_foon([Path(name) for name in options.files], strict=options.strict_format)
+    _warn_of_losses(files.findings)
+    foon = at_level(files.foon, options.level)
+    text = write_text(foon, foon.units, dialect="A", provenance=True)
+    summary = (
+        f"{len(options.files)} files, {files.units_read} units read, {files.units_reported} left out,"
+        f" {foon.duplicates} duplicates removed: {len(foon.units)} units, {len(foon.objects)} objects\n"
+    )
+    if options.output is None:
+        sys.stdout.write(text)
+        sys.stderr.write(f"foon-asp: {summary}")
+    else:
+        write_atomically(Path(options.output), text)
+        sys.stdout.write(f"{options.output}: {summary}")
+    return FOUND
