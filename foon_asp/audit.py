@@ -115,7 +115,7 @@ def _spelling_findings(foon: Foon) -> Iterator[Finding]:
     first: dict[str, FunctionalUnit] = {}
     for unit in foon.units:
         for number in (*unit.inputs, *unit.outputs):
-            for label in _labels(foon.objects[number]):
+            for label in foon.objects[number].named_labels:
                 counts[label] += 1
                 first.setdefault(label, unit)
     for label, better in misspellings(counts, resources.lexicon()):
@@ -127,15 +127,6 @@ def _spelling_findings(foon: Foon) -> Iterator[Finding]:
             f"{label!r} ({count}) looks like a misspelling",
             f"write {better!r}",
         )
-
-
-def _labels(node: ObjectNode) -> Iterator[str]:
-    """Yield every label that a node names: its own, those of relata and of contents."""
-    yield node.label
-    for state in node.states:
-        if state.relatum is not None:
-            yield state.relatum
-        yield from state.contents or ()
 
 
 def _rate_findings(foon: Foon, kitchen: Kitchen) -> Iterator[Finding]:

@@ -60,6 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     retrieve.add_argument("goal", nargs="?", metavar="GOAL", help=_GOAL_HELP)
     retrieve.add_argument("--goals", metavar="FILE", help="retrieve every goal of a JSON list")
     _method_options(retrieve)
+    _constraint_options(retrieve)
     retrieve.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds for each goal")
     _format_option(retrieve, "text", "json", "foon")
 
@@ -185,6 +186,27 @@ def _method_options(command: _Parser) -> None:
     )
 
 
+def _constraint_options(command: _Parser) -> None:
+    group = command.add_argument_group("constraints (each may be given several times)")
+    for flag, metavar, text in (
+        ("--without", "LABEL", "no unit touches it, by label, contents or place"),
+        ("--without-tool", "LABEL", "no unit handles it"),
+        ("--avoid-motion", "MOTION", "no unit has this motion"),
+        ("--diet", "NAME", "a diet that comes with the program, or a file of forbidden labels"),
+        ("--constraint", "FILE", "rules that derive violated(Name,Key)"),
+        ("--objective", "FILE", "rules that derive criterion(Name,Priority) and penalty(Name,Key,Value)"),
+    ):
+        group.add_argument(flag, action="append", default=[], metavar=metavar, help=text)
+    group.add_argument(
+        "--use-unit", action="append", type=int, default=[], metavar="ID", help="this unit is in the tree"
+    )
+    group.add_argument("--only-motions", metavar="FILE", help="motions that are allowed, one a line")
+    group.add_argument("--max-units", type=_count, metavar="N", help="at most N units")
+    group.add_argument("--max-depth", type=_count, metavar="N", help="at most N rounds of parallel execution")
+    group.add_argument("--min-success", type=_chance, metavar="P", help="the tree succeeds with this chance")
+    group.add_argument("--allow-script", action="store_true", help="let rule files run code in #script")
+
+
 def _format_option(command: _Parser, *formats: str) -> None:
     command.add_argument("--format", choices=formats, default=formats[0], help=f"default: {formats[0]}")
 
@@ -203,5 +225,13 @@ def _chance(text: str) -> float:
     return value
 
 
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise ValueError
+    return value
+
+
+_count.__name__ = "number"
 _seconds.__name__ = "number of seconds"
 _chance.__name__ = "chance between 0 and 1"

@@ -11,15 +11,17 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
+from foon_asp.constraints import Constraints
 from foon_asp.dataset import Dataset, load
 from foon_asp.errors import InputError, QueryError, closest
-from foon_asp.files import read_objects, write_atomically
+from foon_asp.files import read_objects, read_utensils, write_atomically
 from foon_asp.findings import Finding, Severity
 from foon_asp.goals import find_goal
 from foon_asp.graph import ObjectNode
 from foon_asp.levels import FULL
 from foon_asp.problem import Domain, Problem
 from foon_asp.render.json import dumps
+from foon_asp.resources import diets
 
 FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
 """Exit statuses; an audit that is told to fail uses 1, too."""
@@ -107,6 +109,46 @@ def _find_goal(options: argparse.Namespace, dataset: Dataset, domain: Domain, te
         return domain.project(find_goal(dataset.domain(strict=options.strict), text, dataset.goals))
 
 
+def _constraints(options: argparse.Namespace) -> Constraints:
+    """Return the constraints that the flags name."""
+    return Constraints(
+        without=tuple(label.strip().lower() for label in options.without),
+        without_tools=tuple(label.strip().lower() for label in options.without_tool),
+        avoid_motions=tuple(motion.strip().lower() for motion in options.avoid_motion),
+        only_motions=None if options.only_motions is None else _labels(Path(options.only_motions)),
+        use_units=tuple(options.use_unit),
+        max_units=options.max_units,
+        max_depth=options.max_depth,
+        min_success=options.min_success,
+        diets=tuple(_diet(name) for name in options.diet),
+        rules=_rules(options),
+    )
+
+
+def _labels(path: Path) -> tuple[str, ...]:
+    return tuple(sorted(read_utensils(path)))
+
+
+def _diet(name: str) -> tuple[str, tuple[str, ...]]:
+    """Return a diet that comes with the program, or that a file lists."""
+    known = diets()
+    if name in known:
+        return name, _labels(known[name])
+    path = Path(name)
+    if not path.exists():
+        raise QueryError(f"no diet {name!r}; there are {', '.join(known)}, or name a file of labels")
+    return path.stem, _labels(path)
+
+
+def _rules(options: argparse.Namespace) -> tuple[str, ...]:
+    if not (options.constraint or options.objective):
+        return ()
+    from foon_asp.rules import read_rules
+
+    paths = [*options.constraint, *options.objective]
+    return tuple(read_rules(Path(path), allow_script=options.allow_script) for path in paths)
+
+
 def run_retrieve(options: argparse.Namespace) -> int:
     """Retrieve task trees."""
     from foon_asp.render.json import retrieval_value
@@ -116,6 +158,7 @@ def run_retrieve(options: argparse.Namespace) -> int:
     if (options.goal is None) == (options.goals is None):
         raise QueryError("name one GOAL, or a file of them with --goals")
     check_method(options.method, options.by, not options.reference)
+    constraints = _constraints(options)
     dataset, domain = _open(options)
     goals = _find_goals(options, dataset, domain, [] if options.goal is None else [options.goal])
     results = []
@@ -127,6 +170,7 @@ def run_retrieve(options: argparse.Namespace) -> int:
             options.by,
             founded=not options.reference,
             time_limit=options.time_limit,
+            constraints=constraints,
         )
         results.append(result)
         if options.format == "text":

@@ -71,6 +71,18 @@ def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
             yield f"kitchen({number})."
     for number in problem.goals:
         yield f"goal({number})."
+    for kind, name, values in problem.constraints.named():
+        for value in values:
+            yield f"{kind}({quote(name)},{_constraint_value(kind, value)})."
+        if not values:
+            yield f'{kind}({quote(name)},"").'
+
+
+def _constraint_value(kind: str, value: str | float) -> str:
+    if kind == "max_failure":
+        # Each rate of a tree was rounded, too: a tree that just succeeds often enough must not fail here.
+        return str(math.ceil(-math.log(value) * COST_SCALE) + 2) if isinstance(value, float) else "0"
+    return quote(value) if isinstance(value, str) else str(value)
 
 
 @lru_cache(maxsize=1 << 16)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 
@@ -79,6 +79,15 @@ class ObjectNode:
     def containers(self) -> tuple[str, ...]:
         """The relata of `in`."""
         return tuple(s.relatum for s in self.states if s.name == "in" and s.relatum is not None)
+
+    @property
+    def named_labels(self) -> Iterator[str]:
+        """Every label that the node names: its own, those of relata and of contents."""
+        yield self.label
+        for state in self.states:
+            if state.relatum is not None:
+                yield state.relatum
+            yield from state.contents or ()
 
     @property
     def sort_key(self) -> tuple[str, tuple[tuple[int, str, str, tuple[str, ...]], ...]]:

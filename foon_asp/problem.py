@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 
+from foon_asp.constraints import FREE, Constraints
 from foon_asp.errors import QueryError, closest
 from foon_asp.graph import Foon, ObjectNode
 from foon_asp.kitchen import Kitchen
@@ -81,15 +82,19 @@ class Domain:
             raise QueryError(f"unknown goal {str(node)!r}{hint}")
         return number
 
-    def problem(self, goals: Iterable[ObjectNode], *, founded: bool = True) -> Problem:
-        return Problem(self, tuple(self.id_of(goal) for goal in goals), founded=founded)
+    def problem(
+        self, goals: Iterable[ObjectNode], *, founded: bool = True, constraints: Constraints = FREE
+    ) -> Problem:
+        ids = tuple(self.id_of(goal) for goal in goals)
+        return Problem(self, ids, founded=founded, constraints=constraints)
 
 
 class Problem:
     """What the solver is asked: goals over a domain, with only the units that can matter for them.
 
     `founded` keeps the units that the kitchen can execute; without it (the reading of the published
-    programs) every unit that leads to a goal stays, even in circles.
+    programs) every unit that leads to a goal stays, even in circles. Units that the constraints demand
+    are there, too, with what leads to them.
     """
 
     def __init__(
@@ -99,11 +104,13 @@ class Problem:
         *,
         founded: bool = True,
         whole: bool = False,
+        constraints: Constraints = FREE,
     ) -> None:
         self.domain = domain
         self.goals = goals
         self.founded = founded
         self.whole = whole
+        self.constraints = constraints
 
     @property
     def reachable(self) -> bool:
@@ -117,7 +124,9 @@ class Problem:
         if self.whole:
             return list(range(len(domain.foon.units)))
         allowed = domain.closure.executable if self.founded else None
-        return domain.reading.backward(self.goals, domain.stock, allowed)
+        required = [unit for unit in self.constraints.use_units if allowed is None or unit in allowed]
+        wanted = [*self.goals, *(need for unit in required for need in domain.reading.needs[unit])]
+        return sorted({*required, *domain.reading.backward(wanted, domain.stock, allowed)})
 
     @cached_property
     def objects(self) -> list[int]:

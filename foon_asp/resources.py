@@ -27,6 +27,11 @@ def built_in_data() -> Path:
     return _folder("data")
 
 
+def diets() -> dict[str, Path]:
+    """Return the diets that come with the program: a name, and a file of the labels that it forbids."""
+    return {path.stem: path for path in sorted((_folder("data") / "diets").glob("*.txt"))}
+
+
 def lexicon() -> frozenset[str]:
     """Return the words of the kitchen in their usual spelling."""
     lines = (_folder("data") / "words.txt").read_text(encoding="utf-8").splitlines()

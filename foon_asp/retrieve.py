@@ -6,12 +6,13 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from foon_asp.decode import column, decode_tree
-from foon_asp.errors import InternalError, QueryError
+from foon_asp.constraints import FREE, Constraints
+from foon_asp.decode import column, decode_tree, rows
+from foon_asp.errors import InternalError, QueryError, closest
 from foon_asp.facts import facts, success_chance
 from foon_asp.graph import ObjectNode
 from foon_asp.problem import Domain, Problem
-from foon_asp.solve import Solver
+from foon_asp.solve import ProgramError, Solver
 from foon_asp.tree import TaskTree
 
 METHODS = ("optimal", "greedy", "ids", "first")
@@ -50,17 +51,19 @@ def retrieve(
     *,
     founded: bool = True,
     time_limit: float | None = None,
+    constraints: Constraints = FREE,
 ) -> Retrieval:
     """Retrieve a task tree for a goal; every tree is replayed from the kitchen before it is returned.
 
     `by` names the criteria of `optimal`, the most important first (`units` by default), or the
     heuristic of `greedy` (`success` by default); a text may hold several, with commas.
     `founded=False` reads units as the published programs do: the tree may go in circles.
-    `time_limit` is in seconds. Raises `QueryError`.
+    `time_limit` is in seconds. `constraints` hold for every method but `ids`. Raises `QueryError`.
     """
     started = time.perf_counter()
     by = check_method(method, by, founded)
-    problem = domain.problem([goal], founded=founded)
+    check_constraints(domain, method, constraints)
+    problem = domain.problem([goal], founded=founded, constraints=constraints)
     deadline = None if time_limit is None else time.monotonic() + time_limit
     reason = unreachable_reason(problem)
     status = "unreachable"
@@ -74,6 +77,8 @@ def retrieve(
         else:
             heuristic = by[0] if method == "greedy" else "first"
             status, tree, bound = _greedy(problem, heuristic, deadline)
+        if status == "unreachable":
+            reason = conflict_reason(problem)
     seconds = time.perf_counter() - started
     return Retrieval(goal, method, by, founded, status, tree, bound, reason, seconds)
 
@@ -119,6 +124,37 @@ def check_method(method: str, by: str | Sequence[str], founded: bool) -> tuple[s
     if "depth" in by and not founded:
         raise QueryError("'depth' is only defined for trees that can be executed; drop --reference")
     return tuple(by) or (known[0] if method == "optimal" else "success",)
+
+
+def check_constraints(domain: Domain, method: str, constraints: Constraints) -> None:
+    """Raise `QueryError` for constraints that make no sense here."""
+    if constraints == FREE:
+        return
+    if method == "ids":
+        raise QueryError("'ids' takes no constraints: the first bound decides; use optimal or greedy")
+    labels = {label for node in domain.foon.objects for label in node.named_labels}
+    for label in (*constraints.without, *constraints.without_tools):
+        if label not in labels:
+            raise QueryError(f"nothing in this FOON is called {label!r}{closest(label, labels)}")
+    motions = domain.foon.motions
+    for motion in constraints.avoid_motions:
+        if motion not in motions:
+            raise QueryError(f"no unit has the motion {motion!r}{closest(motion, motions)}")
+    for unit in constraints.use_units:
+        if not 0 <= unit < len(domain.foon.units):
+            raise QueryError(f"there is no unit {unit}; ids go from 0 to {len(domain.foon.units) - 1}")
+    if constraints.min_success is not None and not 0 < constraints.min_success <= 1:
+        raise QueryError(f"a chance of success is above 0 and at most 1, not {constraints.min_success:g}")
+
+
+def conflict_reason(problem: Problem) -> str:
+    """Say which constraints must give way for a task tree to exist: the fewest that will do."""
+    constants: dict[str, str | int] = {"founded": int(problem.founded), "horizon": len(problem.units) + 1}
+    solver = _solver(problem, ["task_tree.lp", "conflict.lp"], constants)
+    names = [str(name) for (name,) in rows(solver.best(), "waived")]
+    if not names:
+        return "the rules leave no task tree"
+    return "the constraints leave no task tree; one exists without: " + "; ".join(sorted(names))
 
 
 def unreachable_reason(problem: Problem) -> str:
@@ -183,8 +219,24 @@ def _solver(
     rates_required: bool = False,
 ) -> Solver:
     constants = {**constants, "strict": int(problem.domain.strict)}
+    constraints = problem.constraints
+    if constraints != FREE:
+        encodings = [*encodings, "constraints.lp"]
+        rates_required |= constraints.min_success is not None
+    if constraints.max_depth is not None and "criteria/depth.lp" not in encodings:
+        # Last of all criteria it changes no choice that another one makes.
+        encodings = [*encodings, "criteria/depth.lp"]
+        extra_facts += 'criterion("depth",-1).\n'
+    if constraints.max_depth is not None:
+        constants["horizon"] = max(int(constants.get("horizon", 1)), constraints.max_depth)
     text = facts(problem, rates_required=rates_required) + extra_facts
-    return Solver(encodings, text, constants, OPTIMISE)
+    try:
+        return Solver(encodings, "\n".join([text, *constraints.rules]), constants, OPTIMISE)
+    except ProgramError as error:
+        if not constraints.rules:
+            raise
+        problems = "; ".join(line.split(": ", 1)[-1] for line in str(error).splitlines() if ": " in line)
+        raise QueryError(f"the rules do not work: {problems}") from None
 
 
 _BASE = 1
@@ -220,7 +272,9 @@ def _optimal(problem: Problem, by: tuple[str, ...], deadline: float | None) -> F
         return "optimal", decode_tree(problem, answer), {}
     candidates = [each for each in (answer, first) if each is not None and each.atoms is not None]
     trees = [decode_tree(problem, each) for each in candidates]
-    lower = dict(zip(criteria, answer.bounds or [_BASE] * len(criteria), strict=True))
+    # Criteria of the user's own have priorities that are not known here.
+    known = len(answer.bounds) == len(criteria)
+    lower = dict(zip(criteria, answer.bounds if known else [_BASE] * len(criteria), strict=True))
     bound = {name: _as_cost(name, max(0, lower[name] - _BASE)) for name in by}
     return "limit", min(trees, key=lambda tree: _key(tree, criteria)), bound
 
@@ -244,15 +298,18 @@ def _key(tree: TaskTree, criteria: Sequence[str]) -> list[float]:
 def _horizon(problem: Problem, by: tuple[str, ...], deadline: float | None) -> tuple[int, Found | None]:
     """Return a depth that some best tree does not exceed, or what was found if time ran out before.
 
-    If depth comes first it is the round in which the closure reaches the goals. Else any tree that is
-    best by the criteria before it will do: a best tree is no deeper.
+    If depth comes first it is the round in which the closure reaches the goals, unless constraints make
+    that impossible. Else any tree that is best by the criteria before it will do: a best tree is no deeper.
     """
     before = by[: by.index("depth")]
+    if not before and problem.constraints != FREE:
+        before = ("units",)
     if not before:
         closure = problem.domain.closure
         return max(1, *(closure.available[goal] for goal in problem.goals)), None
     status, tree, bound = _optimal(problem, before, deadline)
     if status != "optimal":
+        bound = {name: value for name, value in bound.items() if name in by}
         return 1, (status, tree, bound | {name: 0 for name in by if name not in before})
     return max(1, tree.depth or 1) if tree else 1, None
 

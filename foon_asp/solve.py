@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -32,6 +33,10 @@ class Answer:
     costs: tuple[int, ...] = ()
 
 
+class ProgramError(InternalError):
+    """clingo does not take a program, or warns of it. Where rules of the user's own are in it, look there."""
+
+
 class Solver:
     """One clingo control: encodings and facts, grounded part by part."""
 
@@ -47,9 +52,10 @@ class Solver:
         for name, value in sorted((constants or {}).items()):
             arguments += ["-c", f"{name}={value}"]
         self._control = clingo.Control(arguments, self._log)
-        for encoding in encodings:
-            self._control.load(str(resources.encoding(encoding)))
-        self._control.add("base", [], facts)
+        with self._complaints():
+            for encoding in encodings:
+                self._control.load(str(resources.encoding(encoding)))
+            self._control.add("base", [], facts)
         self.ground("base")
 
     def _log(self, _: clingo.MessageCode, message: str) -> None:
@@ -57,9 +63,18 @@ class Solver:
 
     def ground(self, part: str, *numbers: int) -> None:
         """Ground a part of the program with integer parameters."""
-        self._control.ground([(part, [clingo.Number(number) for number in numbers])])
+        with self._complaints():
+            self._control.ground([(part, [clingo.Number(number) for number in numbers])])
+
+    @contextmanager
+    def _complaints(self) -> Iterator[None]:
+        """Raise all that clingo complains of, be it an error or a mere hint, as one `ProgramError`."""
+        try:
+            yield
+        except RuntimeError as error:
+            raise ProgramError(" / ".join(self._messages) or str(error)) from None
         if self._messages:
-            raise InternalError("clingo: " + " / ".join(self._messages))
+            raise ProgramError(" / ".join(self._messages))
 
     def switch(self, external: str, number: int, value: bool) -> None:
         """Set the external atom `external(number)`."""
