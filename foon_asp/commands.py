@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
-from foon_asp.dataset import Dataset, load
+from foon_asp.convert import FORMATS, choose_format
+from foon_asp.dataset import Dataset, load, read_foon
 from foon_asp.errors import InputError, QueryError, closest
 from foon_asp.files import read_objects, write_atomically
 from foon_asp.findings import Finding, Severity
@@ -285,28 +286,30 @@ def run_stats(options: argparse.Namespace) -> int:
 
 def run_convert(options: argparse.Namespace) -> int:
     """Write FOON files in another format."""
-    from foon_asp.convert import choose_format
-    from foon_asp.dataset import read_foon
-
     out = Path(options.output)
     if out.is_dir():
         if options.to is None:
             raise QueryError("name the format with --to where the output is a folder")
         for name in options.files:
-            files = read_foon([Path(name)], strict=options.strict_format)
-            _warn_of_losses(files.findings)
-            form = choose_format(files.foon, out, options.to)
-            target = out / (Path(name).stem + form.suffix)
+            target = out / (Path(name).stem + FORMATS[options.to].suffix)
             _refuse_same(target, [name])
-            write_atomically(target, form.write(files.foon))
-            sys.stderr.write(f"foon-asp: {target}: {len(files.foon.units)} units ({form.name})\n")
-        return FOUND
-    files = read_foon([Path(name) for name in options.files], strict=options.strict_format)
-    _warn_of_losses(files.findings)
-    form = choose_format(files.foon, out, options.to)
-    write_atomically(out, form.write(files.foon))
-    sys.stderr.write(f"foon-asp: {out}: {len(files.foon.units)} units ({form.name})\n")
+            _convert([name], target, options)
+    else:
+        _convert(options.files, out, options)
     return FOUND
+
+
+def _convert(names: Sequence[str], target: Path, options: argparse.Namespace) -> None:
+    """Write some files as one, and say what the format cannot say of them."""
+    files = read_foon([Path(name) for name in names], strict=options.strict_format)
+    _warn_of_losses(files.findings)
+    form = choose_format(files.foon, target, options.to)
+    write_atomically(target, form.write(files.foon))
+    poorer = sum(form.loses(unit) for unit in files.foon.units)
+    if poorer:
+        what = "goal marks" if form.name == "api-json" else "flags, marks, times, agents and rates"
+        warn(f"{target}: the format {form.name!r} has no {what}; {poorer} units lose some")
+    sys.stderr.write(f"foon-asp: {target}: {len(files.foon.units)} units ({form.name})\n")
 
 
 def _refuse_same(target: Path, names: Sequence[str]) -> None:
@@ -316,7 +319,6 @@ def _refuse_same(target: Path, names: Sequence[str]) -> None:
 
 def run_merge(options: argparse.Namespace) -> int:
     """Merge FOON files into a universal FOON."""
-    from foon_asp.dataset import read_foon
     from foon_asp.levels import at_level
     from foon_asp.text import write_text
 
