@@ -241,7 +241,8 @@ class FoonBuilder:
         units = list(self._units)
         for number, sources in self._more_sources.items():
             unit = units[number]
-            note = replace(unit.annotation, sources=(*unit.annotation.sources, *sources))
+            places = dict.fromkeys((*unit.annotation.sources, *sources))
+            note = replace(unit.annotation, sources=tuple(places))
             units[number] = replace(unit, annotation=note)
         return Foon(self._objects, units, self.read - len(units), self._ids)
 
