@@ -1,4 +1,4 @@
-"""Measure retrieval on the public universal FOON; prints a markdown table.
+"""Measure retrieval and the audit on the public data; prints a markdown table.
 
 Usage: python benchmarks/retrieval.py [--runs N]
 
@@ -119,7 +119,7 @@ def machine() -> str:
 
 
 def main() -> int:
-    options = argparse.ArgumentParser(description="Measure retrieval on the public universal FOON.")
+    options = argparse.ArgumentParser(description="Measure retrieval and the audit on the public data.")
     options.add_argument("--runs", type=int, default=7, help="runs of each measurement (default: 7)")
     runs: int = options.parse_args().runs
     if not (DATA / "FOON.txt").exists():
@@ -127,11 +127,14 @@ def main() -> int:
         return 0
     goals = str(DATA / "goal_nodes.json")
     data = ["--data", str(DATA)]
+    subgraphs = sorted(map(str, (DATA.parent / "subgraphs").glob("*.txt")))
     all_goals = ["retrieve", "--goals", goals, "--by", "units", "--format", "json", *data]
     rows = [
         process("process: `retrieve --goals goal_nodes.json --by units --format json`", all_goals, runs),
         process(f'process: `retrieve "{GOAL}"`', ["retrieve", GOAL, *data], runs),
         process("process: `compare`", ["compare", *data], runs),
+        process("process: `audit FOON.txt`", ["audit", str(DATA / "FOON.txt")], runs),
+        process("process: `audit subgraphs/*.txt`", ["audit", *subgraphs], runs),
         parsing(runs),
         warm_retrieval(),
     ]

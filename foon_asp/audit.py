@@ -328,8 +328,8 @@ def _lock_finding(lock: Lock) -> Finding:
     if len(lock.circle) == 1:
         cause = f"this unit needs {lock.need}, which it makes itself and nothing else can"
     elif lock.circle:
-        lines = ", ".join(str(unit.source.line) for unit in lock.circle)
-        cause = f"{lock.need} is needed to make itself, in a circle of the units at lines {lines}"
+        places = ", ".join(str(unit.source) for unit in lock.circle)
+        cause = f"{lock.need} is needed to make itself, in a circle of the units at {places}"
     else:
         cause = f"nothing makes {lock.need}, which this unit needs"
     mend = (

@@ -10,6 +10,7 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
+from io import TextIOWrapper
 from typing import NoReturn
 
 from foon_asp import commands
@@ -28,6 +29,10 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            # A terminal that cannot show a character of a label is no reason to stop.
+            stream.reconfigure(errors="backslashreplace")
     options = _parser().parse_args(arguments)
     try:
         status = int(options.run(options))
@@ -108,21 +113,39 @@ def _parser() -> argparse.ArgumentParser:
     audit.add_argument("--fix-dir", metavar="DIR", help="write repaired copies into this folder instead")
     _format_option(audit, "text", "json", "sarif")
 
-    stats = _command(subparsers, "stats", commands.run_stats, "count what is in a FOON")
-    stats.add_argument("files", nargs="*", metavar="FILE", help=_FILES_HELP)
+    stats = _command(
+        subparsers, "stats", commands.run_stats, "count what is in a FOON", kitchen=False, planning=False
+    )
+    stats.add_argument("files", nargs="*", metavar="FILE", help="FOON files (default: the built-in FOON)")
+    stats.add_argument("--data", metavar="DIR", help="folder with FOON.txt, or subgraphs")
     stats.add_argument(
         "--centrality", action="store_true", help="add centralities in the one-mode projection"
     )
     _format_option(stats, "text", "json")
 
-    convert = _command(subparsers, "convert", commands.run_convert, "write FOON files in another format")
+    convert = _command(
+        subparsers,
+        "convert",
+        commands.run_convert,
+        "write FOON files in another format",
+        kitchen=False,
+        planning=False,
+        level=False,
+    )
     convert.add_argument("files", nargs="+", metavar="IN", help="FOON files; several are merged")
     convert.add_argument("-o", "--output", required=True, metavar="OUT", help="file, or folder for one each")
     convert.add_argument(
         "--to", choices=list(FORMATS), help="format (default: the fuller one with the suffix of OUT)"
     )
 
-    merge = _command(subparsers, "merge", commands.run_merge, "merge FOON files into a universal FOON")
+    merge = _command(
+        subparsers,
+        "merge",
+        commands.run_merge,
+        "merge FOON files into a universal FOON",
+        kitchen=False,
+        planning=False,
+    )
     merge.add_argument("files", nargs="+", metavar="FILE", help="FOON files of any format")
     merge.add_argument("-o", "--output", metavar="OUT", help="text file (default: standard output)")
 
@@ -142,27 +165,37 @@ def _command(
     name: str,
     run: object,
     summary: str,
+    *,
+    kitchen: bool = True,
+    planning: bool = True,
+    level: bool = True,
 ) -> _Parser:
+    """Add a command, with the options of all those that need a kitchen, plan, or know levels."""
     command = subparsers.add_parser(name, help=summary, description=summary[0].upper() + summary[1:] + ".")
     command.set_defaults(run=run)
-    data = command.add_argument_group("data (default: the built-in kitchen)")
-    data.add_argument("--data", metavar="DIR", help="folder with FOON.txt (or subgraphs), kitchen.json, …")
-    data.add_argument("--foon", nargs="+", default=[], metavar="FILE", help="FOON text files to merge")
-    data.add_argument("--kitchen", metavar="FILE", help="objects at hand, a JSON list")
-    data.add_argument("--rates", metavar="FILE", help="success rates, lines of motion<tab>rate")
-    data.add_argument("--utensils", metavar="FILE", help="utensil labels, one a line")
-    data.add_argument("--default-rate", type=_chance, metavar="P", help="rate of motions without one")
-    data.add_argument("--strict", action="store_true", help="need every input, implied views too")
+    data = command.add_argument_group("data (default: the built-in kitchen)" if kitchen else "reading")
+    if kitchen:
+        data.add_argument(
+            "--data", metavar="DIR", help="folder with FOON.txt (or subgraphs), kitchen.json, …"
+        )
+        data.add_argument("--foon", nargs="+", default=[], metavar="FILE", help="FOON files to merge")
+        data.add_argument("--kitchen", metavar="FILE", help="objects at hand, a JSON list")
+        data.add_argument("--rates", metavar="FILE", help="success rates, lines of motion<tab>rate")
+        data.add_argument("--utensils", metavar="FILE", help="utensil labels, one a line")
+        data.add_argument("--default-rate", type=_chance, metavar="P", help="rate of motions without one")
+    if planning:
+        data.add_argument("--strict", action="store_true", help="need every input, implied views too")
     data.add_argument(
         "--strict-format", action="store_true", help="take anything odd in a FOON file as an error"
     )
-    data.add_argument(
-        "--level",
-        type=int,
-        choices=(1, 2, 3),
-        default=3,
-        help="detail: 1 labels, 2 labels and states, 3 everything (default)",
-    )
+    if level:
+        data.add_argument(
+            "--level",
+            type=int,
+            choices=(1, 2, 3),
+            default=3,
+            help="detail: 1 labels, 2 labels and states, 3 everything (default)",
+        )
     return command
 
 

@@ -6,13 +6,16 @@ Modules that only one command needs are imported there: a first answer should no
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
 from foon_asp.constraints import Constraints
-from foon_asp.dataset import Dataset, load
+from foon_asp.convert import FORMATS, choose_format
+from foon_asp.dataset import Dataset, foon_files, load, read_foon
 from foon_asp.errors import InputError, QueryError, closest
 from foon_asp.files import read_objects, read_utensils, write_atomically
 from foon_asp.findings import Finding, Severity
@@ -21,7 +24,7 @@ from foon_asp.graph import ObjectNode
 from foon_asp.levels import FULL
 from foon_asp.problem import Domain, Problem
 from foon_asp.render.json import dumps
-from foon_asp.resources import diets
+from foon_asp.resources import built_in_data, diets
 
 FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
 """Exit statuses; an audit that is told to fail uses 1, too."""
@@ -36,21 +39,13 @@ def warn(message: str) -> None:
 
 
 def _load(options: argparse.Namespace) -> Dataset:
-    """Load what the options name, and warn of what was left out in reading it.
-
-    Files named one by one bring what lies beside the first of them, if no folder is named.
-    """
-    files = getattr(options, "files", [])
-    folder = options.data
-    if files and folder is None:
-        folder = Path(files[0]).parent
+    """Load what the options name."""
     return load(
-        folder,
-        foon=files or options.foon,
+        options.data,
+        foon=options.foon,
         kitchen=options.kitchen,
         rates=options.rates,
         utensils=options.utensils,
-        goals=getattr(options, "goals", None) if files else None,
         default_rate=options.default_rate,
         strict_format=options.strict_format,
     )
@@ -270,7 +265,16 @@ def run_audit(options: argparse.Namespace) -> int:
 
     if (options.fix or options.fix_dir) and not options.files:
         raise QueryError("name the files to repair: foon-asp audit --fix FILE…")
+    if options.files:
+        # What lies beside the first file belongs to it.
+        options.data = options.data or str(Path(options.files[0]).parent)
+        options.foon = options.files
     dataset = _load(options)
+    if options.goals is not None:
+        dataset = replace(dataset, goals=tuple(read_objects(Path(options.goals))))
+    for goal in dataset.goals:
+        if dataset.foon.id_of(goal) is None:
+            warn(f"the goal {goal} is no object of this FOON")
     report = audit(dataset.foon, dataset.kitchen, dataset.goals, dataset.findings)
     if options.format == "json":
         sys.stdout.write(dumps(audit_value(report)))
@@ -279,35 +283,64 @@ def run_audit(options: argparse.Namespace) -> int:
     else:
         sys.stdout.write(audit_text(report, Severity[options.severity.upper()]))
     if options.fix or options.fix_dir:
-        for name in options.files:
-            _fix(Path(name), None if options.fix_dir is None else Path(options.fix_dir))
+        _fix_all([Path(name) for name in options.files], options.fix_dir)
     worst = max((finding.severity for finding in report.findings), default=None)
     if options.fail_on and worst is not None and worst >= Severity[options.fail_on.upper()]:
         return UNREACHABLE
     return FOUND
 
 
-def _fix(path: Path, folder: Path | None) -> None:
+def _fix_all(paths: Sequence[Path], folder: str | None) -> None:
+    """Write a repaired copy of each file, beside it or in a folder."""
+    if folder is None:
+        targets = [path.with_name(f"{path.stem}.fixed{path.suffix}") for path in paths]
+    else:
+        targets = [Path(folder) / path.name for path in paths]
+    _refuse_overwriting(targets, paths)
+    for path, target in zip(paths, targets, strict=True):
+        _fix(path, target)
+
+
+def _fix(path: Path, target: Path) -> None:
     """Write a copy of a text file with the certain mends, and list them on standard error."""
     from foon_asp.files import read_bytes
     from foon_asp.mend import mend_text
     from foon_asp.open_foon import FoonReader, decode, is_json
 
     data = read_bytes(path)
-    text, _ = decode(data, str(path))
+    text, encoding = decode(data, str(path))
     if is_json(text):
         warn(f"{path}: only text files can be repaired")
         return
     reader = FoonReader()
     reader.read_data(data, path)
     mended, mends = mend_text(text, reader.finish().findings)
-    target = path.with_name(f"{path.stem}.fixed{path.suffix}") if folder is None else folder / path.name
-    if target.resolve() == path.resolve():
-        raise InputError(target, None, "a repaired copy would replace the file", "name another folder")
+    rows = [f"{finding.file}:{finding.line}: {finding.code}: {finding.mend}" for finding in mends]
+    rows += [f"{finding.file}:{finding.line}: {finding.code}: saved as UTF-8" for finding in encoding]
+    rows = list(dict.fromkeys(rows))
+    if not rows:
+        sys.stderr.write(f"foon-asp: {path}: nothing to mend\n")
+        return
     write_atomically(target, mended)
-    for finding in mends:
-        sys.stderr.write(f"{finding.file}:{finding.line}: {finding.code}: {finding.mend}\n")
-    sys.stderr.write(f"foon-asp: {target}: {len(mends)} mends\n")
+    sys.stderr.write("".join(f"{row}\n" for row in rows))
+    sys.stderr.write(f"foon-asp: {target}: {_count(len(rows), 'mend')}\n")
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
+def _refuse_overwriting(targets: Sequence[Path], sources: Sequence[Path]) -> None:
+    """Raise `InputError` if writing the targets would replace a source, or one target another."""
+    inputs = {source.resolve() for source in sources}
+    seen: set[Path] = set()
+    for target in targets:
+        place = target.resolve()
+        if place in inputs:
+            raise InputError(target, None, "this would replace an input", "name another output")
+        if place in seen:
+            raise InputError(target, None, "two inputs would be written here", "convert them one by one")
+        seen.add(place)
 
 
 def run_stats(options: argparse.Namespace) -> int:
@@ -316,9 +349,14 @@ def run_stats(options: argparse.Namespace) -> int:
     from foon_asp.render.stats import statistics_text, statistics_value
     from foon_asp.stats import centralities, statistics
 
-    dataset = _load(options)
-    foon = at_level(dataset.foon, options.level)
-    counts = statistics(foon, dataset.units_read, dataset.findings)
+    folder = built_in_data() if options.data is None else Path(options.data)
+    paths = [Path(name) for name in options.files] or foon_files(folder)
+    files = read_foon(paths or [folder], strict=options.strict_format)
+    counts = statistics(files.foon, files.units_read, files.findings)
+    foon = at_level(files.foon, options.level)
+    if options.level != FULL:
+        # The table of levels is that of the full FOON: a lower level knows nothing of the higher ones.
+        counts = replace(statistics(foon, files.units_read, files.findings), levels=counts.levels)
     central = centralities(foon) if options.centrality else None
     if options.format == "json":
         sys.stdout.write(dumps(statistics_value(counts, central)))
@@ -329,47 +367,50 @@ def run_stats(options: argparse.Namespace) -> int:
 
 def run_convert(options: argparse.Namespace) -> int:
     """Write FOON files in another format."""
-    from foon_asp.convert import choose_format
-    from foon_asp.dataset import read_foon
-
+    sources = [Path(name) for name in options.files]
     out = Path(options.output)
-    if out.is_dir():
+    if os.path.isdir(out) or options.output.endswith("/"):  # noqa: PTH112 - Path.is_dir raises on long names
         if options.to is None:
             raise QueryError("name the format with --to where the output is a folder")
-        for name in options.files:
-            files = read_foon([Path(name)], strict=options.strict_format)
-            _warn_of_losses(files.findings)
-            form = choose_format(files.foon, out, options.to)
-            target = out / (Path(name).stem + form.suffix)
-            _refuse_same(target, [name])
-            write_atomically(target, form.write(files.foon))
-            sys.stderr.write(f"foon-asp: {target}: {len(files.foon.units)} units ({form.name})\n")
-        return FOUND
-    files = read_foon([Path(name) for name in options.files], strict=options.strict_format)
-    _warn_of_losses(files.findings)
-    form = choose_format(files.foon, out, options.to)
-    write_atomically(out, form.write(files.foon))
-    sys.stderr.write(f"foon-asp: {out}: {len(files.foon.units)} units ({form.name})\n")
+        targets = [out / (source.stem + FORMATS[options.to].suffix) for source in sources]
+        _refuse_overwriting(targets, sources)
+        for source, target in zip(sources, targets, strict=True):
+            _convert([source], target, options)
+    else:
+        _refuse_overwriting([out], sources)
+        _convert(sources, out, options)
     return FOUND
 
 
-def _refuse_same(target: Path, names: Sequence[str]) -> None:
-    if target.resolve() in {Path(name).resolve() for name in names}:
-        raise InputError(target, None, "this would replace an input", "name another folder")
+def _convert(sources: Sequence[Path], target: Path, options: argparse.Namespace) -> None:
+    """Write some files as one, and say what the format cannot say of them."""
+    files = read_foon(sources, strict=options.strict_format)
+    _warn_of_losses(files.findings)
+    form = choose_format(files.foon, target, options.to)
+    write_atomically(target, form.write(files.foon))
+    poorer = sum(form.loses(unit) for unit in files.foon.units)
+    if poorer:
+        what = "goal marks" if form.name == "api-json" else "flags, marks, times, agents and rates"
+        warn(f"{target}: the format {form.name!r} has no {what}; lost of {_count(poorer, 'unit')}")
+    sys.stderr.write(f"foon-asp: {target}: {_count(len(files.foon.units), 'unit')} ({form.name})\n")
 
 
 def run_merge(options: argparse.Namespace) -> int:
     """Merge FOON files into a universal FOON."""
-    from foon_asp.dataset import read_foon
     from foon_asp.levels import at_level
     from foon_asp.text import write_text
 
-    files = read_foon([Path(name) for name in options.files], strict=options.strict_format)
+    sources = [Path(name) for name in options.files]
+    if options.output is not None:
+        if options.output.lower().endswith(".json"):
+            raise QueryError("a merged FOON is text; convert it to JSON afterwards: foon-asp convert")
+        _refuse_overwriting([Path(options.output)], sources)
+    files = read_foon(sources, strict=options.strict_format)
     _warn_of_losses(files.findings)
     foon = at_level(files.foon, options.level)
     text = write_text(foon, foon.units, dialect="A", provenance=True)
     summary = (
-        f"{len(options.files)} files, {files.units_read} units read, {files.units_reported} left out,"
+        f"{_count(len(sources), 'file')}, {files.units_read} units read, {files.units_reported} left out,"
         f" {foon.duplicates} duplicates removed: {len(foon.units)} units, {len(foon.objects)} objects\n"
     )
     if options.output is None:

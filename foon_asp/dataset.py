@@ -57,10 +57,10 @@ def read_foon(paths: Sequence[Path], strict: bool = False) -> FoonFiles:
 
 
 def foon_files(folder: Path) -> list[Path]:
-    """Return `FOON.txt` of a folder, or else all its subgraphs (`*.txt`), sorted."""
-    universal = folder / "FOON.txt"
-    if universal.exists():
-        return [universal]
+    """Return `FOON.txt` or `FOON.json` of a folder, or else all its subgraphs (`*.txt`), sorted."""
+    for universal in (folder / "FOON.txt", folder / "FOON.json"):
+        if universal.exists():
+            return [universal]
     return sorted(path for path in folder.glob("*.txt") if path.name not in _BESIDE_A_FOON)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -181,14 +182,25 @@ def _rows(path: Path) -> Iterator[tuple[int, str]]:
 def write_atomically(path: Path, text: str) -> None:
     """Write a UTF-8 file so that it is there whole or, whatever happens, as it was before.
 
-    Raises `InputError` if it cannot be written.
+    Links are followed, and an existing file keeps its mode. What is no regular file (a device, a pipe) is
+    written to as it is. Raises `InputError` if it cannot be written.
     """
-    unfinished = path.with_name(f".{path.name}.part")
+    data = text.encode("utf-8")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_bytes(text.encode("utf-8"))
-        unfinished.replace(path)
+        target = path.resolve()
+        if target.exists() and not target.is_file():
+            target.write_bytes(data)
+            return
+        target.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = target.with_name(f".{target.name}.part")
+        try:
+            unfinished.write_bytes(data)
+            if target.exists():
+                shutil.copymode(target, unfinished)
+            unfinished.replace(target)
+        except OSError:
+            with suppress(OSError):
+                unfinished.unlink(missing_ok=True)
+            raise
     except OSError as error:
-        with suppress(OSError):
-            unfinished.unlink(missing_ok=True)
         raise InputError(path, None, f"cannot be written ({error.strerror})") from None

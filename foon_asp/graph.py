@@ -208,6 +208,7 @@ class FoonBuilder:
         self._ids: dict[ObjectNode, int] = {}
         self._units: list[FunctionalUnit] = []
         self._seen: dict[UnitKey, int] = {}
+        self._more_sources: dict[int, list[Source]] = {}
         self.read = 0
 
     def object(self, node: ObjectNode) -> int:
@@ -225,18 +226,13 @@ class FoonBuilder:
         key = (frozenset(inputs), motion, frozenset(outputs))
         number = self._seen.setdefault(key, len(self._units))
         if number < len(self._units):
-            self._add_sources(number, note.sources)
+            self._more_sources.setdefault(number, []).extend(note.sources)
             return None
         if len(key[0]) != len(inputs) or len(key[2]) != len(outputs):
             inputs, outputs, note = _without_repeats(inputs, outputs, note)
         unit = FunctionalUnit(number, motion, tuple(inputs), tuple(outputs), note)
         self._units.append(unit)
         return unit
-
-    def _add_sources(self, number: int, sources: tuple[Source, ...]) -> None:
-        unit = self._units[number]
-        note = replace(unit.annotation, sources=unit.annotation.sources + sources)
-        self._units[number] = replace(unit, annotation=note)
 
     def include(self, foon: Foon) -> None:
         """Add every unit of another FOON."""
@@ -250,7 +246,14 @@ class FoonBuilder:
             )
 
     def build(self) -> Foon:
-        return Foon(self._objects, self._units, self.read - len(self._units), self._ids)
+        """Return what was collected; each unit knows all places where it was read."""
+        units = list(self._units)
+        for number, sources in self._more_sources.items():
+            unit = units[number]
+            places = dict.fromkeys((*unit.annotation.sources, *sources))
+            note = replace(unit.annotation, sources=tuple(places))
+            units[number] = replace(unit, annotation=note)
+        return Foon(self._objects, units, self.read - len(units), self._ids)
 
 
 def _without_repeats(

@@ -110,7 +110,7 @@ class TextReader:
                 mend = "write '//' below it"
                 self._report(last, "unit-not-closed", "the last unit is not closed by '//'", mend)
             line += chunk.count("\n")
-            if end is not None:
+            if end is not None and (not found or len(end[0]) > len("//\n")):
                 self._check_end(end[0], line, found, doubled=start > 0 and not chunk.strip())
             line += 1
             start = end.end() if end else len(text)

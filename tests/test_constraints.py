@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Collection
 from pathlib import Path
+from typing import Any
 
 import brute_force
 import pytest
@@ -221,7 +222,11 @@ def test_greedy_and_first_obey_constraints_too() -> None:
             "optimal",
             "nothing in this FOON is called 'onoin'; closest: onion",
         ),
-        (Constraints(avoid_motions=("shaek",)), "optimal", "no unit has the motion 'shaek'; closest: .*shake"),
+        (
+            Constraints(avoid_motions=("shaek",)),
+            "optimal",
+            "no unit has the motion 'shaek'; closest: .*shake",
+        ),
         (Constraints(use_units=(9999,)), "optimal", "there is no unit 9999; ids go from 0 to 661"),
         (Constraints(min_success=0.0), "optimal", "above 0 and at most 1, not 0"),
         (Constraints(max_units=3), "ids", "'ids' takes no constraints"),
@@ -270,15 +275,16 @@ def test_an_unsafe_rule_is_one_line_and_exit_2(capsys: pytest.CaptureFixture[str
 
 
 def test_an_objective_of_ones_own_comes_first(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    path = tmp_path / "pouring.lp"
-    path.write_text('criterion("pouring",9).\npenalty("pouring",U,1) :- use(U), motion(U,"pour").\n')
+    path = tmp_path / "quiet.lp"
+    path.write_text('criterion("shaking",9).\npenalty("shaking",U,1) :- use(U), motion(U,"shake").\n')
 
-    def pours(value: object) -> int:
-        return sum(unit["motion"] == "pour" for unit in value["units"])  # type: ignore[index]
+    def motions(value: Any) -> list[str]:
+        return [unit["motion"] for unit in value["units"]]
 
-    free = run_json(capsys, "retrieve", "greek salad")
-    held = run_json(capsys, "retrieve", "greek salad", "--objective", path)
-    assert pours(held) < pours(free)
+    assert "shake" in motions(run_json(capsys, "retrieve", "whipped cream"))
+    held = run_json(capsys, "retrieve", "whipped cream", "--objective", path)
+    assert "shake" not in motions(held)
+    assert held["size"] == 6
 
 
 def test_flags_of_the_command_line(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from pathlib import Path
 
@@ -83,6 +84,40 @@ def test_convert_says_in_one_line_what_is_wrong(
     assert message in err
     assert err.count("\n") == 1
     assert annotated.read_text() == A_UNIT
+
+
+def test_no_input_is_ever_replaced(
+    capsys: pytest.CaptureFixture[str], annotated: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "a.txt").write_text(A_UNIT)
+    (tmp_path / "link.txt").symlink_to(annotated)
+    other = tmp_path / "sub" / "a.txt"
+    for arguments in (
+        ["convert", annotated, "-o", annotated],
+        ["convert", annotated, "-o", tmp_path / "link.txt"],
+        ["merge", annotated, other, "-o", other],
+        ["convert", annotated, other, "-o", tmp_path / "sub", "--to", "text"],
+        ["audit", annotated, "--fix-dir", tmp_path],
+        ["audit", annotated, other, "--fix-dir", tmp_path / "new"],
+    ):
+        status, _, err = run(capsys, *arguments)
+        assert status == 2, arguments
+        assert "would replace an input" in err or "two inputs would be written here" in err
+    assert annotated.read_text() == other.read_text() == A_UNIT
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_pipe_is_written_to_and_not_replaced(
+    capsys: pytest.CaptureFixture[str], annotated: Path, tmp_path: Path
+) -> None:
+    pipe = tmp_path / "pipe.txt"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    assert run(capsys, "convert", annotated, "-o", pipe, "--to", "text")[0] == 0
+    assert os.read(reader, 9) == b"//\nO\tonion"[:9]
+    os.close(reader)
+    assert pipe.is_fifo()
 
 
 def test_merge_counts_and_keeps_where_each_unit_comes_from(
@@ -198,7 +233,7 @@ def test_sarif_is_what_code_hosts_read(capsys: pytest.CaptureFixture[str], annot
     Draft202012Validator(schema).validate(log)
     [result] = [r for r in log["runs"][0]["results"] if r["ruleId"] == "missing-tab"]
     place = result["locations"][0]["physicalLocation"]
-    assert place["artifactLocation"]["uri"] == str(annotated)
+    assert place["artifactLocation"]["uri"] == annotated.as_uri()
     assert place["region"]["startLine"] == 9
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import PurePath
 from typing import Any
@@ -48,7 +49,8 @@ def _result(finding: Finding, rule: int) -> dict[str, Any]:
         "message": {"text": text},
     }
     if finding.file:
-        uri = quote(PurePath(finding.file).as_posix())
+        path = PurePath(finding.file)
+        uri = path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))
         place: dict[str, Any] = {"artifactLocation": {"uri": uri}}
         if finding.line:
             place["region"] = {"startLine": finding.line}

@@ -56,7 +56,7 @@ def statistics_text(counts: Statistics, central: Centralities | None) -> str:
         f"objects     {counts.objects:7}",
         f"labels      {counts.labels:7}",
         f"motions     {counts.motions:7}",
-        f"findings    {findings:7}   (foon-asp audit lists them)",
+        f"findings    {findings:7}   (in reading; foon-asp audit finds more)",
         "",
         "level      units  objects",
         *(f"{level:5} {units:10} {objects:8}" for level, (units, objects) in counts.levels.items()),
