@@ -194,7 +194,7 @@ def _say(
         return None
     message = sentence.format(*nodes, *texts, motion=unit.motion)
     if code == "unknown-label":
-        message += closest(texts[0], foon.labels, 1)
+        message += closest(texts[0], (label for label in foon.labels if label[:1] == texts[0][:1]), 1)
     return _finding(code, severity, unit, message)
 
 
@@ -264,7 +264,8 @@ def _rest(
             unit.annotation,
         )
     part = builder.build()
-    stock = tuple(node for node in map(domain.node, available) if part.id_of(node) is not None)
+    there = set(available)
+    stock = tuple(node for node in part.objects if foon.id_of(node) in there)
     return Domain(part, replace(domain.kitchen, objects=stock), strict=domain.strict), list(closed)
 
 

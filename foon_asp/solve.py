@@ -106,15 +106,15 @@ class Solver:
             elif not handle.wait(max(0.0, deadline - time.monotonic())):
                 handle.cancel()
             proven = bool(handle.get().exhausted)
-        # The callback for bounds leaves out priorities that were no work; the statistics have all.
-        summary: Any = self._control.statistics["summary"]
-        lower = tuple(int(bound) for bound in summary.get("lower", ()))
-        if not found:
-            return Answer(None, proven, lower)
+        atoms, costs = found[0] if found else (None, ())
         # Where there is nothing to pay the first model is a best one, and clingo looks no further.
-        atoms, costs = found[0]
-        proven = proven or not costs
-        return Answer(atoms, proven, costs if proven else lower, costs)
+        proven = proven or (atoms is not None and not costs)
+        return Answer(atoms, proven, costs if proven else self._lower_bounds(), costs)
+
+    def _lower_bounds(self) -> tuple[int, ...]:
+        """Return what is proven of each priority, of all: the callback for bounds leaves some out."""
+        summary: Any = self._control.statistics["summary"]
+        return tuple(int(bound) for bound in summary.get("lower", ()))
 
 
 def _atoms(model: clingo.Model) -> tuple[Atom, ...]:

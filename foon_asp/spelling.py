@@ -43,6 +43,9 @@ def _near(word: str, other: str) -> bool:
     shorter = min(len(word), len(other))
     if shorter < 4 or abs(len(word) - len(other)) > 2 or _inflected(word, other):
         return False
+    # Two edits bring in two new letters and remove two others, at the most.
+    if len(set(word) ^ set(other)) > 4:
+        return False
     distance = _distance(word, other)
     if distance == 1:
         return shorter >= 5 or len(word) != len(other) or sorted(word) == sorted(other)
