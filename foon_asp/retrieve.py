@@ -265,6 +265,8 @@ def _optimal(problem: Problem, by: tuple[str, ...], deadline: float | None) -> F
         rates_required="success" in by,
     )
     first = solver.first() if deadline is not None else None
+    if first is not None and first.atoms is None:
+        return "unreachable", None, {}
     answer = solver.best(deadline)
     if answer.proven:
         if answer.atoms is None:
@@ -300,7 +302,10 @@ def _horizon(problem: Problem, by: tuple[str, ...], deadline: float | None) -> t
 
     If depth comes first it is the round in which the closure reaches the goals, unless constraints make
     that impossible. Else any tree that is best by the criteria before it will do: a best tree is no deeper.
+    Rules may bring criteria of any priority, so with them only the number of units is safe.
     """
+    if problem.constraints.rules:
+        return max(1, len(problem.units)), None
     before = by[: by.index("depth")]
     if not before and problem.constraints != FREE:
         before = ("units",)
@@ -326,6 +331,8 @@ def _greedy(problem: Problem, heuristic: str, deadline: float | None) -> Found:
             rates_required=heuristic == "success",
         )
         first = solver.first() if deadline is not None else None
+        if first is not None and first.atoms is None:
+            return "unreachable", None, {}
         answer = solver.best(deadline)
         if not answer.proven:
             best = answer if answer.atoms is not None or first is None else first

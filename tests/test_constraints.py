@@ -198,6 +198,23 @@ def _without(constraints: Constraints, names: set[str]) -> Constraints:
     )
 
 
+@pytest.mark.parametrize("method", ["optimal", "greedy", "first"])
+def test_no_tree_is_no_tree_however_short_the_time(built_in: Dataset, method: str) -> None:
+    impossible = Constraints(avoid_motions=("shake",), max_units=5)
+    result = retrieve(built_in.domain(), built_in.goals[0], method, time_limit=0, constraints=impossible)
+    assert (result.status, result.tree) == ("unreachable", None)
+    assert "avoid motion shake" in result.reason
+
+
+def test_an_objective_may_lead_deeper_than_the_flattest_tree() -> None:
+    where = domain(["a -fry-> goal", "a -wash-> b", "b -cut-> c", "c -boil-> goal"], "a")
+    for priority, units in ((9, 3), (1, 1)):
+        rule = f'criterion("f",{priority}). penalty("f",U,9) :- use(U), motion(U,"fry").'
+        result = retrieve(where, node("goal"), by="depth", constraints=Constraints(rules=(rule,)))
+        assert result.tree is not None
+        assert len(result.tree.units) == units
+
+
 def test_greedy_and_first_obey_constraints_too() -> None:
     where = domain(["a -fry-> goal", "a -wash-> b", "b -boil-> goal"], "a", rates={"fry": 1.0})
     for method in ("first", "greedy"):
