@@ -8,16 +8,15 @@ from dataclasses import dataclass, replace
 
 from foon_asp import resources
 from foon_asp.decode import column, rows
-from foon_asp.errors import closest
+from foon_asp.errors import closest, counted, shortened
 from foon_asp.facts import facts
 from foon_asp.findings import Finding, Severity
 from foon_asp.graph import Foon, FoonBuilder, FunctionalUnit, ObjectNode, State
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain, Problem
-from foon_asp.solve import Answer, Solver, Value
+from foon_asp.retrieve import OPTIMISE
+from foon_asp.solve import Solver, Value
 from foon_asp.spelling import misspellings
-
-_SHOWN = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +118,7 @@ def _spelling_findings(foon: Foon) -> Iterator[Finding]:
                 counts[label] += 1
                 first.setdefault(label, unit)
     for label, better in misspellings(counts, resources.lexicon()):
-        count = f"{counts[label]} time" + ("s" if counts[label] > 1 else "")
+        count = counted(counts[label], "time")
         yield _finding(
             "spelling",
             Severity.WARNING,
@@ -221,10 +220,10 @@ def find_locks(domain: Domain, goals: Sequence[ObjectNode] = ()) -> Iterator[Loc
     available = dict.fromkeys(domain.closure.available)
     closed = [unit for unit in foon.units if unit.id not in domain.closure.executable]
     while closed:
-        rest, units = _rest(domain, closed, available)
+        rest = _rest(domain, closed, available)
         problem = Problem(rest, (), whole=True)
         answer = Solver(["unlock.lp"], facts(problem)).best()
-        opened = [units[number] for number in column(answer, "opened")]
+        opened = [closed[number] for number in column(answer, "opened")]
         if not opened:
             return
         [(place, thing)] = rows(answer, "edit")
@@ -235,10 +234,10 @@ def find_locks(domain: Domain, goals: Sequence[ObjectNode] = ()) -> Iterator[Loc
         }
         need = rest.node(thing)
         yield Lock(
-            unit=units[place],
+            unit=closed[place],
             need=need,
-            replacement=_resembling(domain, units[place], need, available),
-            circle=tuple(units[number] for number in column(answer, "circle")),
+            replacement=_resembling(domain, closed[place], need, available),
+            circle=tuple(closed[number] for number in column(answer, "circle")),
             opens=tuple(opened),
             unlocks=_products(domain, fresh, goals),
         )
@@ -247,13 +246,8 @@ def find_locks(domain: Domain, goals: Sequence[ObjectNode] = ()) -> Iterator[Loc
         closed = [unit for unit in closed if unit.id not in opened_ids]
 
 
-def _rest(
-    domain: Domain, closed: Sequence[FunctionalUnit], available: Iterable[int]
-) -> tuple[Domain, list[FunctionalUnit]]:
-    """Return the closed units as a domain of its own, with all that is available as its kitchen.
-
-    Also return which unit of the whole FOON each of its units is.
-    """
+def _rest(domain: Domain, closed: Sequence[FunctionalUnit], available: Iterable[int]) -> Domain:
+    """Return the closed units, in order, as a domain of its own; all that is available is its kitchen."""
     foon = domain.foon
     builder = FoonBuilder()
     for unit in closed:
@@ -266,7 +260,7 @@ def _rest(
     part = builder.build()
     there = set(available)
     stock = tuple(node for node in part.objects if foon.id_of(node) in there)
-    return Domain(part, replace(domain.kitchen, objects=stock), strict=domain.strict), list(closed)
+    return Domain(part, replace(domain.kitchen, objects=stock), strict=domain.strict)
 
 
 def _resembling(
@@ -310,22 +304,19 @@ def explain_locked_goal(domain: Domain, goal: ObjectNode) -> LockedGoal:
     foon = domain.foon
     available = domain.closure.available
     relevant = domain.reading.backward([domain.id_of(goal)], available)
-    rest, _ = _rest(domain, [foon.units[unit] for unit in relevant], available)
+    rest = _rest(domain, [foon.units[unit] for unit in relevant], available)
     if rest.foon.id_of(goal) is None:
         return LockedGoal(goal, None)
     problem = Problem(rest, (rest.id_of(goal),), whole=True)
-    answer: Answer = Solver(["missing.lp"], facts(problem), options=["--opt-strategy=usc"]).best()
+    answer = Solver(["missing.lp"], facts(problem), options=OPTIMISE).best()
     if answer.atoms is None:
         return LockedGoal(goal, None)
     return LockedGoal(goal, tuple(rest.node(thing) for thing in column(answer, "missing")))
 
 
 def _lock_finding(lock: Lock) -> Finding:
-    count = len(lock.opens)
-    units = f"{count} unit{'s' if count > 1 else ''} can never run"
-    made = ", ".join(map(str, lock.unlocks[:_SHOWN])) + (
-        f" and {len(lock.unlocks) - _SHOWN} more" if len(lock.unlocks) > _SHOWN else ""
-    )
+    units = f"{counted(len(lock.opens), 'unit')} can never run"
+    made = shortened(lock.unlocks)
     if len(lock.circle) == 1:
         cause = f"this unit needs {lock.need}, which it makes itself and nothing else can"
     elif lock.circle:

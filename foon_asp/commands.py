@@ -12,11 +12,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from foon_asp.constraints import Constraints
 from foon_asp.convert import FORMATS, choose_format
 from foon_asp.dataset import Dataset, foon_files, load, read_foon
-from foon_asp.errors import InputError, QueryError, closest
+from foon_asp.errors import InputError, QueryError, closest, counted
 from foon_asp.files import read_objects, read_utensils, write_atomically
 from foon_asp.findings import Finding, Severity
 from foon_asp.goals import find_goal
@@ -25,6 +26,9 @@ from foon_asp.levels import FULL
 from foon_asp.problem import Domain, Problem
 from foon_asp.render.json import dumps
 from foon_asp.resources import built_in_data, diets
+
+if TYPE_CHECKING:
+    from foon_asp.retrieve import Retrieval
 
 FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
 """Exit statuses; an audit that is told to fail uses 1, too."""
@@ -181,11 +185,9 @@ def run_retrieve(options: argparse.Namespace) -> int:
     return UNREACHABLE if "unreachable" in statuses else FOUND
 
 
-def _write_tree(result: object) -> None:
-    from foon_asp.retrieve import Retrieval
+def _write_tree(result: Retrieval) -> None:
     from foon_asp.text import write_text
 
-    assert isinstance(result, Retrieval)
     if result.tree is None:
         reason = f"no task tree: {result.reason}" if result.reason else "no task tree in time"
         sys.stderr.write(f"foon-asp: {result.goal}: {reason}\n")
@@ -323,11 +325,7 @@ def _fix(path: Path, target: Path) -> None:
         return
     write_atomically(target, mended)
     sys.stderr.write("".join(f"{row}\n" for row in rows))
-    sys.stderr.write(f"foon-asp: {target}: {_count(len(rows), 'mend')}\n")
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"
+    sys.stderr.write(f"foon-asp: {target}: {counted(len(rows), 'mend')}\n")
 
 
 def _refuse_overwriting(targets: Sequence[Path], sources: Sequence[Path]) -> None:
@@ -352,12 +350,8 @@ def run_stats(options: argparse.Namespace) -> int:
     folder = built_in_data() if options.data is None else Path(options.data)
     paths = [Path(name) for name in options.files] or foon_files(folder)
     files = read_foon(paths or [folder], strict=options.strict_format)
-    counts = statistics(files.foon, files.units_read, files.findings)
-    foon = at_level(files.foon, options.level)
-    if options.level != FULL:
-        # The table of levels is that of the full FOON: a lower level knows nothing of the higher ones.
-        counts = replace(statistics(foon, files.units_read, files.findings), levels=counts.levels)
-    central = centralities(foon) if options.centrality else None
+    counts = statistics(files.foon, files.units_read, files.findings, options.level)
+    central = centralities(at_level(files.foon, options.level)) if options.centrality else None
     if options.format == "json":
         sys.stdout.write(dumps(statistics_value(counts, central)))
     else:
@@ -391,8 +385,8 @@ def _convert(sources: Sequence[Path], target: Path, options: argparse.Namespace)
     poorer = sum(form.loses(unit) for unit in files.foon.units)
     if poorer:
         what = "goal marks" if form.name == "api-json" else "flags, marks, times, agents and rates"
-        warn(f"{target}: the format {form.name!r} has no {what}; lost of {_count(poorer, 'unit')}")
-    sys.stderr.write(f"foon-asp: {target}: {_count(len(files.foon.units), 'unit')} ({form.name})\n")
+        warn(f"{target}: the format {form.name!r} has no {what}; lost of {counted(poorer, 'unit')}")
+    sys.stderr.write(f"foon-asp: {target}: {counted(len(files.foon.units), 'unit')} ({form.name})\n")
 
 
 def run_merge(options: argparse.Namespace) -> int:
@@ -410,7 +404,7 @@ def run_merge(options: argparse.Namespace) -> int:
     foon = at_level(files.foon, options.level)
     text = write_text(foon, foon.units, dialect="A", provenance=True)
     summary = (
-        f"{_count(len(sources), 'file')}, {files.units_read} units read, {files.units_reported} left out,"
+        f"{counted(len(sources), 'file')}, {files.units_read} units read, {files.units_reported} left out,"
         f" {foon.duplicates} duplicates removed: {len(foon.units)} units, {len(foon.objects)} objects\n"
     )
     if options.output is None:

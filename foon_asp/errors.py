@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -27,6 +27,17 @@ class QueryError(FoonError):
 
 class InternalError(Exception):
     """An answer failed its own check: a fault of this program, never of the caller."""
+
+
+def counted(number: int, word: str) -> str:
+    """Return `1 step`, `2 steps`."""
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
+def shortened(names: Sequence[object], shown: int = 3) -> str:
+    """Return `a, b, c and 4 more`."""
+    more = f" and {len(names) - shown} more" if len(names) > shown else ""
+    return ", ".join(map(str, names[:shown])) + more
 
 
 def closest(word: str, known: Iterable[str], count: int = 3) -> str:

@@ -79,10 +79,12 @@ def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
 
 
 def _constraint_value(kind: str, value: str | float) -> str:
+    if isinstance(value, str):
+        return quote(value)
     if kind == "max_failure":
         # Each rate of a tree was rounded, too: a tree that just succeeds often enough must not fail here.
-        return str(math.ceil(-math.log(value) * COST_SCALE) + 2) if isinstance(value, float) else "0"
-    return quote(value) if isinstance(value, str) else str(value)
+        return str(math.ceil(-math.log(value) * COST_SCALE) + 2)
+    return str(value)
 
 
 @lru_cache(maxsize=1 << 16)

@@ -112,11 +112,6 @@ class Problem:
         self.whole = whole
         self.constraints = constraints
 
-    @property
-    def reachable(self) -> bool:
-        """Whether the kitchen can make every goal."""
-        return all(goal in self.domain.closure.available for goal in self.goals)
-
     @cached_property
     def units(self) -> list[int]:
         """Ids of the units given to the solver, in file order."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from foon_asp.constraints import FREE, Constraints
 from foon_asp.decode import column, decode_tree, rows
-from foon_asp.errors import InternalError, QueryError, closest
+from foon_asp.errors import InternalError, QueryError, closest, shortened
 from foon_asp.facts import facts, success_chance
 from foon_asp.graph import ObjectNode
 from foon_asp.problem import Domain, Problem
@@ -184,10 +184,9 @@ def _locked(domain: Domain, goal: int) -> str:
     lacking = {thing for unit in units for thing in reading.needs[unit] if thing not in available}
     nobody = sorted(thing for thing in lacking if thing not in reading.makers)
     if nobody:
-        names = ", ".join(str(domain.node(thing)) for thing in nobody[:3])
-        more = f" and {len(nobody) - 3} more" if len(nobody) > 3 else ""
+        names = shortened([domain.node(thing) for thing in nobody])
         it = "it" if len(nobody) == 1 else "them"
-        return f"the kitchen lacks {names}{more}, and no unit makes {it}"
+        return f"the kitchen lacks {names}, and no unit makes {it}"
     inner, circle = _circle(domain, goal)
     places = ", ".join(str(domain.foon.units[unit].source) for unit in circle)
     return f"locked in a circle: {domain.node(inner)} is needed to make itself ({places})"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 from foon_asp.errors import QueryError
 from foon_asp.findings import Finding
 from foon_asp.graph import Foon, ObjectNode
-from foon_asp.levels import LEVELS, at_level
+from foon_asp.levels import FULL, LEVELS, at_level, check_level
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -98,9 +98,10 @@ class Centralities:
     eigenvector: Centrality
 
 
-def statistics(foon: Foon, units_read: int, findings: Iterable[Finding]) -> Statistics:
-    """Count what is in a FOON."""
-    views = {level: at_level(foon, level) for level in LEVELS}
+def statistics(foon: Foon, units_read: int, findings: Iterable[Finding], level: int = FULL) -> Statistics:
+    """Count what is in a FOON, seen on a level; `levels` is always that of the FOON as given."""
+    views = {each: at_level(foon, each) for each in LEVELS}
+    foon = views[check_level(level)]
     users = Counter(thing for unit in foon.units for thing in unit.inputs)
     makers = Counter(thing for unit in foon.units for thing in unit.outputs)
     motions = Counter(unit.motion for unit in foon.units)
@@ -114,7 +115,7 @@ def statistics(foon: Foon, units_read: int, findings: Iterable[Finding]) -> Stat
         labels=len(foon.labels),
         motions=len(motions),
         findings={code: codes[code] for code in sorted(codes)},
-        levels={level: (len(view.units), len(view.objects)) for level, view in views.items()},
+        levels={each: (len(view.units), len(view.objects)) for each, view in views.items()},
         degrees=Degrees(
             makers=_spread(makers.values(), len(foon.objects)),
             users=_spread(users.values(), len(foon.objects)),

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 import brute_force
+from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
 from foon_asp.graph import Annotation, Foon, FoonBuilder, ObjectNode, State, contains, inside
@@ -20,6 +21,16 @@ _OBJECT = re.compile(
     r"(?P<label>[\w ]+)(?:\[(?P<states>[^]]*)\])?(?:\{(?P<contents>[^}]*)\})?(?:@(?P<container>\w+))?"
 )
 _UNIT = re.compile(r"(?P<inputs>.*)-(?P<motion>\w+)->(?P<outputs>.*)")
+
+
+def many(examples: int) -> settings:
+    """Try a property on many examples, the same ones in each run."""
+    return settings(
+        deadline=None,
+        max_examples=examples,
+        derandomize=True,
+        suppress_health_check=[HealthCheck.too_slow],
+    )
 
 
 def node(text: str) -> ObjectNode:

@@ -9,9 +9,9 @@ from typing import Any
 
 import brute_force
 import pytest
-from hypothesis import event, given, settings
+from hypothesis import event, given
 from hypothesis import strategies as st
-from small_foons import domain, node, queries
+from small_foons import domain, many, node, queries
 from test_cli import run, run_json
 
 from foon_asp import resources
@@ -134,7 +134,7 @@ def allowed(where: Domain, units: Collection[int], costs: brute_force.Costs, c: 
 
 
 @pytest.mark.parametrize("by", [("units",), ("success",), ("depth", "inputs"), ("inputs", "depth")])
-@settings(max_examples=120, deadline=None, derandomize=True)
+@many(120)
 @given(query=constrained())
 def test_the_best_tree_under_constraints_is_found(
     by: tuple[str, ...], query: tuple[Domain, ObjectNode, Constraints]
@@ -159,7 +159,7 @@ def test_the_best_tree_under_constraints_is_found(
             assert float(found[name]) == pytest.approx(float(best[name]), rel=1e-4)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@many(150)
 @given(query=constrained())
 def test_the_constraints_that_must_give_way_are_the_fewest(
     query: tuple[Domain, ObjectNode, Constraints],

@@ -10,9 +10,9 @@ from pathlib import Path
 import brute_force
 import clingo
 import pytest
-from hypothesis import HealthCheck, event, given, settings
+from hypothesis import event, given
 from hypothesis import strategies as st
-from small_foons import domain, domains, foon, motions, node, nodes, queries
+from small_foons import domain, domains, foon, many, motions, node, nodes, queries
 
 import foon_asp
 from foon_asp import resources
@@ -39,15 +39,6 @@ METHODS: list[tuple[str, tuple[str, ...]]] = [
     ("optimal", ("inputs", "depth")),
 ]
 WITH_REFERENCE = [each for each in METHODS if each[0] != "ids" and "depth" not in each[1]]
-
-
-def many(examples: int) -> settings:
-    return settings(
-        deadline=None,
-        max_examples=examples,
-        derandomize=True,
-        suppress_health_check=[HealthCheck.too_slow],
-    )
 
 
 def on(level: int, full: Domain) -> Domain:

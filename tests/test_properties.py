@@ -10,9 +10,9 @@ from typing import cast
 import brute_force
 import paper_pseudocode
 import pytest
-from hypothesis import HealthCheck, event, given, settings
+from hypothesis import event, given
 from hypothesis import strategies as st
-from small_foons import domain, domains, node, queries
+from small_foons import domain, domains, many, node, queries
 
 from foon_asp.decode import column
 from foon_asp.facts import facts
@@ -23,15 +23,6 @@ from foon_asp.solve import Answer, Solver
 from foon_asp.tree import TaskTree
 
 Query = tuple[Domain, ObjectNode]
-
-
-def many(examples: int) -> settings:
-    return settings(
-        deadline=None,
-        max_examples=examples,
-        derandomize=True,
-        suppress_health_check=[HealthCheck.too_slow],
-    )
 
 
 def own_costs(domain: Domain, goal: ObjectNode, tree: TaskTree) -> brute_force.Costs:

@@ -6,6 +6,7 @@ from collections import Counter
 from typing import Any
 
 from foon_asp.audit import Audit
+from foon_asp.errors import counted
 from foon_asp.findings import Finding, Severity
 from foon_asp.state_syntax import object_to_json
 
@@ -21,10 +22,7 @@ def audit_text(report: Audit, least: Severity) -> str:
         for place, finding in zip(places, shown, strict=True)
     ]
     counts = Counter(finding.severity for finding in report.findings)
-    total = ", ".join(
-        f"{counts[severity]} {severity.word}{'' if counts[severity] == 1 else 's'}"
-        for severity in reversed(Severity)
-    )
+    total = ", ".join(counted(counts[severity], severity.word) for severity in reversed(Severity))
     hidden = len(report.findings) - len(shown)
     lines.append(f"{total}" + (f" ({hidden} not shown)" if hidden else ""))
     return "\n".join(lines) + "\n"

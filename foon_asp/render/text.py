@@ -7,6 +7,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from foon_asp.compare import COLUMNS, PAPER_COLUMNS, Row
+from foon_asp.errors import counted
 from foon_asp.graph import FunctionalUnit, Source
 from foon_asp.problem import Domain
 from foon_asp.retrieve import Retrieval
@@ -36,10 +37,10 @@ def _verdict(result: Retrieval) -> str:
     if not tree.units:
         return "nothing to do: the kitchen has it"
     costs = tree.costs
-    parts = [_count(costs.units, "step")]
+    parts = [counted(costs.units, "step")]
     if costs.depth is not None:
-        parts.append(_count(costs.depth, "round"))
-    parts.append(_count(costs.inputs, "input"))
+        parts.append(counted(costs.depth, "round"))
+    parts.append(counted(costs.inputs, "input"))
     if costs.success is not None:
         parts.append(f"success {costs.success:.3g}")
     proof = {"optimal": "proven optimal", "limit": "time limit, not proven"}.get(result.status, "")
@@ -52,10 +53,6 @@ def _verdict(result: Retrieval) -> str:
         step = "in the end" if tree.replay.failed_at is None else f"at step {tree.replay.failed_at + 1}"
         text += f"\nNOT EXECUTABLE in any order: {step} it lacks {missing}"
     return text
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" + ("" if number == 1 else "s")
 
 
 def steps_text(tree: TaskTree) -> list[str]:
