@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 from foon_asp import resources
 from foon_asp.decode import column, rows
 from foon_asp.errors import closest, counted, shortened
+from foon_asp.explain import missing_sets
 from foon_asp.facts import facts
 from foon_asp.findings import Finding, Severity
 from foon_asp.graph import Foon, FoonBuilder, FunctionalUnit, ObjectNode, State
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain, Problem
-from foon_asp.retrieve import OPTIMISE
 from foon_asp.solve import Solver, Value
 from foon_asp.spelling import misspellings
 
@@ -42,7 +42,8 @@ class Lock:
 class LockedGoal:
     """A goal that the kitchen cannot make, and the smallest set of objects that would change this.
 
-    `missing` never holds the dish itself in another vessel; None if no set helps.
+    `missing` holds the dish itself in another state or vessel only if nothing else helps; it is None if no
+    set helps.
     """
 
     goal: ObjectNode
@@ -79,7 +80,7 @@ def audit(
     known_goals = [goal for goal in goals if foon.id_of(goal) is not None]
     locks = list(find_locks(domain, known_goals))
     locked = [
-        explain_locked_goal(domain, goal)
+        _locked_goal(domain, goal)
         for goal in known_goals
         if domain.id_of(goal) not in domain.closure.available
     ]
@@ -299,19 +300,9 @@ def _products(domain: Domain, fresh: set[int], goals: Sequence[ObjectNode]) -> t
     return tuple(reached or ends)
 
 
-def explain_locked_goal(domain: Domain, goal: ObjectNode) -> LockedGoal:
-    """Return the smallest set of objects whose presence in the kitchen would let the goal be made."""
-    foon = domain.foon
-    available = domain.closure.available
-    relevant = domain.reading.backward([domain.id_of(goal)], available)
-    rest = _rest(domain, [foon.units[unit] for unit in relevant], available)
-    if rest.foon.id_of(goal) is None:
-        return LockedGoal(goal, None)
-    problem = Problem(rest, (rest.id_of(goal),), whole=True)
-    answer = Solver(["missing.lp"], facts(problem), options=OPTIMISE).best()
-    if answer.atoms is None:
-        return LockedGoal(goal, None)
-    return LockedGoal(goal, tuple(rest.node(thing) for thing in column(answer, "missing")))
+def _locked_goal(domain: Domain, goal: ObjectNode) -> LockedGoal:
+    sets = missing_sets(domain, domain.id_of(goal)).sets
+    return LockedGoal(goal, tuple(map(domain.node, sets[0])) if sets else None)
 
 
 def _lock_finding(lock: Lock) -> Finding:

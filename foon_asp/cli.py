@@ -16,6 +16,7 @@ from typing import NoReturn
 from foon_asp import commands
 from foon_asp.commands import BAD_INPUT, FOUND
 from foon_asp.convert import FORMATS
+from foon_asp.criteria import CRITERIA
 from foon_asp.errors import FoonError, InternalError
 from foon_asp.findings import Severity
 
@@ -65,9 +66,50 @@ def _parser() -> argparse.ArgumentParser:
     retrieve.add_argument("goal", nargs="?", metavar="GOAL", help=_GOAL_HELP)
     retrieve.add_argument("--goals", metavar="FILE", help="retrieve every goal of a JSON list")
     _method_options(retrieve)
+    retrieve.add_argument(
+        "--trace", action="store_true", help="with --method ids: what is explored at each limit of depth"
+    )
+    _alternative_options(retrieve)
     _constraint_options(retrieve)
     retrieve.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds for each goal")
     _format_option(retrieve, "text", "json", "foon")
+
+    explain = _command(
+        subparsers,
+        "explain",
+        commands.run_explain,
+        "say why there is no task tree, or what its steps are for",
+    )
+    explain.add_argument("goal", metavar="GOAL", help=_GOAL_HELP)
+    explain.add_argument("--by", default="", metavar="C1,C2,…", help=_BY_HELP)
+    explain.add_argument("--all", action="store_true", help="all smallest sets of missing things")
+    explain.add_argument("--step", type=int, metavar="ID", help="only what this unit of the tree is for")
+    explain.add_argument("--instead", action="store_true", help="with --step, the best tree without it")
+    _constraint_options(explain)
+    explain.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds for each solve")
+    _format_option(explain, "text", "json")
+
+    suggest = _command(
+        subparsers, "suggest", commands.run_suggest, "say what can be cooked, the best dishes first"
+    )
+    suggest.add_argument(
+        "--using", default="", metavar="L1,L2,…", help="only dishes that are made with these"
+    )
+    suggest.add_argument("--by", default="", metavar="C1,C2,…", help=_BY_HELP)
+    suggest.add_argument("--all", action="store_true", help="everything that can be made, not just dishes")
+    suggest.add_argument("-n", type=_positive, default=20, metavar="N", help="show so many (default: 20)")
+    _constraint_options(suggest)
+    suggest.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds for all dishes")
+    _format_option(suggest, "text", "json")
+
+    menu = _command(subparsers, "menu", commands.run_menu, "make several dishes, and share their steps")
+    menu.add_argument("goal", nargs="*", metavar="GOAL", help=_GOAL_HELP)
+    menu.add_argument("--goals", metavar="FILE", help="goals as a JSON list")
+    menu.add_argument("--by", default="", metavar="C1,C2,…", help=_BY_HELP)
+    menu.add_argument("--leave-out", action="store_true", help="leave out goals that cannot be made")
+    _constraint_options(menu)
+    menu.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds for all of it")
+    _format_option(menu, "text", "json", "foon")
 
     reach = _command(subparsers, "reach", commands.run_reach, "say what the kitchen can make")
     reach.add_argument("--list", action="store_true", help="name everything that can be made")
@@ -81,8 +123,24 @@ def _parser() -> argparse.ArgumentParser:
     )
     compare.add_argument("goal", nargs="*", metavar="GOAL", help=_GOAL_HELP)
     compare.add_argument("--goals", metavar="FILE", help="goals as a JSON list")
+    compare.add_argument(
+        "--human",
+        action="store_true",
+        help="instead, the highest success with 0, 1, 2, … steps done by a human, who never fails",
+    )
+    compare.add_argument("--human-steps", type=_count, metavar="K", help="with --human, at most K")
     compare.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds for each tree")
     _format_option(compare, "text", "json")
+
+    query = _command(subparsers, "query", commands.run_query, "run rules of your own over the facts")
+    query.add_argument("file", metavar="FILE", help="answer-set rules over the vocabulary")
+    query.add_argument(
+        "goal", nargs="*", metavar="GOAL", help=_GOAL_HELP + "; without one, the facts of the whole FOON"
+    )
+    query.add_argument("--goals", metavar="FILE", help="goals as a JSON list")
+    query.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds")
+    query.add_argument("--allow-script", action="store_true", help="let the file run code in #script")
+    _format_option(query, "text", "json")
 
     facts = _command(subparsers, "facts", commands.run_facts, "print the facts that clingo is given")
     facts.add_argument(
@@ -157,6 +215,9 @@ def _parser() -> argparse.ArgumentParser:
 _GOAL_HELP = "LABEL [state, state] {content, content} in CONTAINER; all but the label may be left out"
 
 
+_BY_HELP = f"criteria, the most important first, or sums like 2*units+inputs: {', '.join(CRITERIA)}"
+
+
 _FILES_HELP = "FOON files; kitchen.json etc. beside the first are used"
 
 
@@ -208,14 +269,32 @@ def _method_options(command: _Parser) -> None:
     )
     command.add_argument(
         "--by",
-        default=(),
+        default="",
         metavar="C1,C2,…",
-        help="criteria: units, success, inputs, depth; for greedy success or inputs",
+        help=_BY_HELP + "; for greedy success or inputs",
     )
     command.add_argument(
         "--reference",
         action="store_true",
         help="drop foundedness, as the published programs do: the tree may go in circles",
+    )
+
+
+def _alternative_options(command: _Parser) -> None:
+    group = command.add_argument_group(
+        "several task trees (with the method optimal)"
+    ).add_mutually_exclusive_group()
+    group.add_argument("-k", type=_positive, metavar="N", help="the N best, in order")
+    group.add_argument("--all-optimal", action="store_true", help="all that are best, and their number")
+    group.add_argument(
+        "--diverse", type=_positive, metavar="N", help="N that are as different as possible, within --factor"
+    )
+    group.add_argument("--pareto", metavar="C1,C2,…", help="one for each trade-off between some criteria")
+    command.add_argument(
+        "--factor",
+        type=float,
+        metavar="F",
+        help="with --diverse: cost at most F times the best (default: 1.5)",
     )
 
 
@@ -233,10 +312,21 @@ def _constraint_options(command: _Parser) -> None:
     group.add_argument(
         "--use-unit", action="append", type=int, default=[], metavar="ID", help="this unit is in the tree"
     )
+    group.add_argument(
+        "--avoid-unit",
+        action="append",
+        type=int,
+        default=[],
+        metavar="ID",
+        help="this unit is not in the tree",
+    )
     group.add_argument("--only-motions", metavar="FILE", help="motions that are allowed, one a line")
     group.add_argument("--max-units", type=_count, metavar="N", help="at most N units")
     group.add_argument("--max-depth", type=_count, metavar="N", help="at most N rounds of parallel execution")
     group.add_argument("--min-success", type=_chance, metavar="P", help="the tree succeeds with this chance")
+    group.add_argument(
+        "--human-steps", type=_count, metavar="K", help="a human, who never fails, does at most K steps"
+    )
     group.add_argument("--allow-script", action="store_true", help="let rule files run code in #script")
 
 
@@ -265,6 +355,14 @@ def _count(text: str) -> int:
     return value
 
 
+def _positive(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise ValueError
+    return value
+
+
 _count.__name__ = "number"
+_positive.__name__ = "number above 0"
 _seconds.__name__ = "number of seconds"
 _chance.__name__ = "chance between 0 and 1"

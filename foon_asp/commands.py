@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
@@ -28,6 +28,7 @@ from foon_asp.render.json import dumps
 from foon_asp.resources import built_in_data, diets
 
 if TYPE_CHECKING:
+    from foon_asp.alternatives import Alternatives
     from foon_asp.retrieve import Retrieval
 
 FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
@@ -111,17 +112,23 @@ def _find_goal(options: argparse.Namespace, dataset: Dataset, domain: Domain, te
 def _constraints(options: argparse.Namespace) -> Constraints:
     """Return the constraints that the flags name."""
     return Constraints(
-        without=tuple(label.strip().lower() for label in options.without),
-        without_tools=tuple(label.strip().lower() for label in options.without_tool),
-        avoid_motions=tuple(motion.strip().lower() for motion in options.avoid_motion),
+        without=_named(options.without),
+        without_tools=_named(options.without_tool),
+        avoid_motions=_named(options.avoid_motion),
         only_motions=None if options.only_motions is None else _labels(Path(options.only_motions)),
-        use_units=tuple(options.use_unit),
+        use_units=tuple(dict.fromkeys(options.use_unit)),
+        avoid_units=tuple(dict.fromkeys(options.avoid_unit)),
         max_units=options.max_units,
         max_depth=options.max_depth,
         min_success=options.min_success,
+        human_steps=options.human_steps,
         diets=tuple(_diet(name) for name in options.diet),
         rules=_rules(options),
     )
+
+
+def _named(labels: Iterable[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(label.strip().lower() for label in labels))
 
 
 def _labels(path: Path) -> tuple[str, ...]:
@@ -145,44 +152,153 @@ def _rules(options: argparse.Namespace) -> tuple[str, ...]:
     from foon_asp.rules import read_rules
 
     paths = [*options.constraint, *options.objective]
-    return tuple(read_rules(Path(path), allow_script=options.allow_script) for path in paths)
+    texts = [read_rules(Path(path), allow_script=options.allow_script) for path in paths]
+    for path, text in zip(options.objective, texts[len(options.constraint) :], strict=True):
+        for predicate in ("criterion(", "penalty("):
+            if predicate not in text:
+                raise InputError(
+                    path,
+                    None,
+                    f"this objective has no {predicate}…)",
+                    "see docs/objectives.md for the two lines",
+                )
+    return tuple(texts)
 
 
 def run_retrieve(options: argparse.Namespace) -> int:
     """Retrieve task trees."""
-    from foon_asp.render.json import retrieval_value
-    from foon_asp.render.text import retrieval_text
-    from foon_asp.retrieve import check_method, retrieve
+    from foon_asp.render.json import alternatives_value, retrieval_value
+    from foon_asp.render.text import alternatives_text, retrieval_text
+    from foon_asp.render.trace import trace_text, trace_value
+    from foon_asp.retrieve import Retrieval, check_method, retrieve
+    from foon_asp.trace import bounds
 
     if (options.goal is None) == (options.goals is None):
         raise QueryError("name one GOAL, or a file of them with --goals")
-    check_method(options.method, options.by, not options.reference)
     constraints = _constraints(options)
+    check_method(options.method, options.by, not options.reference, constraints)
+    if options.trace and options.method != "ids":
+        raise QueryError("--trace shows the search of --method ids")
+    if options.factor is not None and not options.diverse:
+        raise QueryError("--factor says how dear --diverse trees may be; name both")
+    if options.objective and options.method != "optimal":
+        raise QueryError("an objective is for the method 'optimal' alone; leave out --method")
+    several = options.k or options.all_optimal or options.diverse or options.pareto is not None
+    if several:
+        _check_alternatives(options)
     dataset, domain = _open(options)
     goals = _find_goals(options, dataset, domain, [] if options.goal is None else [options.goal])
-    results = []
+    results: list[Retrieval | Alternatives] = []
     for place, goal in enumerate(goals):
-        result = retrieve(
-            domain,
-            goal,
-            options.method,
-            options.by,
-            founded=not options.reference,
-            time_limit=options.time_limit,
-            constraints=constraints,
-        )
+        if several:
+            result: Retrieval | Alternatives = _alternatives(options, domain, goal, constraints)
+        else:
+            result = retrieve(
+                domain,
+                goal,
+                options.method,
+                options.by,
+                founded=not options.reference,
+                time_limit=options.time_limit,
+                constraints=constraints,
+            )
         results.append(result)
         if options.format == "text":
-            sys.stdout.write(("\n" if place else "") + retrieval_text(result))
-        elif options.format == "foon":
+            text = retrieval_text(result) if isinstance(result, Retrieval) else alternatives_text(result)
+            sys.stdout.write("\n" if place else "")
+            if options.trace:
+                sys.stdout.write(trace_text(domain, bounds(domain, domain.id_of(goal))) + "\n")
+            sys.stdout.write(text)
+        elif options.format == "foon" and isinstance(result, Retrieval):
             _write_tree(result)
     if options.format == "json":
-        values = [retrieval_value(result) for result in results]
+        values = [
+            retrieval_value(result) if isinstance(result, Retrieval) else alternatives_value(result)
+            for result in results
+        ]
+        if options.trace:
+            for goal, value in zip(goals, values, strict=True):
+                value["trace"] = trace_value(domain, bounds(domain, domain.id_of(goal)))
         sys.stdout.write(dumps(values[0] if options.goals is None else values))
-    statuses = {result.status for result in results}
+    return _status(result.status for result in results)
+
+
+def _status(statuses: Iterable[str]) -> int:
+    """Return the exit status for the statuses of some answers."""
+    statuses = set(statuses)
     if "limit" in statuses:
         return LIMIT
     return UNREACHABLE if "unreachable" in statuses else FOUND
+
+
+def _check_alternatives(options: argparse.Namespace) -> None:
+    if options.method != "optimal":
+        raise QueryError("several trees are found by the method 'optimal' alone; leave out --method")
+    if options.format == "foon":
+        raise QueryError("--format foon writes one tree; take text or json for several")
+    if options.pareto is not None and options.by:
+        raise QueryError("--pareto names the criteria itself; leave out --by")
+    if options.pareto is not None and options.objective:
+        raise QueryError("--pareto weighs built-in criteria; it cannot take --objective")
+
+
+def _alternatives(
+    options: argparse.Namespace, domain: Domain, goal: ObjectNode, constraints: Constraints
+) -> Alternatives:
+    """Return the several trees that the options ask for."""
+    from foon_asp.alternatives import all_optimal_trees, best_trees, diverse_trees, pareto_trees
+
+    founded, limit, by = not options.reference, options.time_limit, options.by
+    if options.k:
+        return best_trees(
+            domain, goal, options.k, by, founded=founded, time_limit=limit, constraints=constraints
+        )
+    if options.diverse:
+        return diverse_trees(
+            domain,
+            goal,
+            options.diverse,
+            by,
+            factor=1.5 if options.factor is None else options.factor,
+            founded=founded,
+            time_limit=limit,
+            constraints=constraints,
+        )
+    if options.all_optimal:
+        return all_optimal_trees(domain, goal, by, founded=founded, time_limit=limit, constraints=constraints)
+    return pareto_trees(
+        domain, goal, options.pareto, founded=founded, time_limit=limit, constraints=constraints
+    )
+
+
+def run_menu(options: argparse.Namespace) -> int:
+    """Make several dishes together."""
+    from foon_asp.menu import plan_menu
+    from foon_asp.render.json import menu_value
+    from foon_asp.render.text import menu_text
+    from foon_asp.retrieve import check_method
+
+    constraints = _constraints(options)
+    check_method("optimal", options.by, True, constraints)
+    dataset, domain = _open(options)
+    goals = _find_goals(options, dataset, domain, options.goal)
+    if not goals:
+        raise QueryError("name the dishes: foon-asp menu GOAL GOAL…, or a file of them with --goals")
+    menu = plan_menu(
+        domain,
+        goals,
+        options.by,
+        time_limit=options.time_limit,
+        constraints=constraints,
+        leave_out=options.leave_out,
+    )
+    if options.format == "json":
+        sys.stdout.write(dumps(menu_value(menu)))
+    elif options.format == "text":
+        sys.stdout.write(menu_text(menu))
+    else:
+        _write_tree(menu.together)
+    return _status([menu.together.status])
 
 
 def _write_tree(result: Retrieval) -> None:
@@ -192,10 +308,88 @@ def _write_tree(result: Retrieval) -> None:
         reason = f"no task tree: {result.reason}" if result.reason else "no task tree in time"
         sys.stderr.write(f"foon-asp: {result.goal}: {reason}\n")
         return
-    comments = [f"Goal:\t{result.goal}", f"Method:\t{result.method} {','.join(result.by)}".rstrip()]
+    comments = [f"Goal:\t{goal}" for goal in result.goals]
+    comments += [f"Method:\t{result.method} {','.join(result.by)}".rstrip()]
     if not result.tree.executable:
         comments.append("NOT EXECUTABLE")
     sys.stdout.write(write_text(result.tree.domain.foon, result.tree.steps, comments))
+
+
+def run_explain(options: argparse.Namespace) -> int:
+    """Say why there is no task tree, or what its steps are for."""
+    from foon_asp.explain import explain, first_sentence
+    from foon_asp.render.explain import explanation_text, explanation_value, reason_text
+
+    constraints = _constraints(options)
+    dataset, domain = _open(options)
+    goal = _find_goal(options, dataset, domain, options.goal)
+    told = ""
+    if options.format == "text":
+        # The first sentence takes no solver, so it does not wait for one.
+        told = first_sentence(domain.problem([goal], constraints=constraints))
+        sys.stdout.write(reason_text(goal, told) if told else "")
+        sys.stdout.flush()
+    explanation = explain(
+        domain,
+        goal,
+        options.by,
+        constraints=constraints,
+        step=options.step,
+        instead=options.instead,
+        everything=options.all,
+        time_limit=options.time_limit,
+    )
+    if options.format == "json":
+        sys.stdout.write(dumps(explanation_value(explanation)))
+    else:
+        sys.stdout.write(explanation_text(explanation, told=bool(told)))
+    return {"limit": LIMIT, "reachable": FOUND}.get(explanation.status, UNREACHABLE)
+
+
+def run_suggest(options: argparse.Namespace) -> int:
+    """Say what can be cooked, the best dishes first."""
+    from foon_asp.render.suggest import suggestions_text, suggestions_value
+    from foon_asp.suggest import suggest
+
+    constraints = _constraints(options)
+    dataset, domain = _open(options)
+    result = suggest(
+        domain,
+        [domain.project(goal) for goal in dataset.goals],
+        options.by,
+        using=tuple(label.strip().lower() for label in options.using.split(",") if label.strip()),
+        everything=options.all,
+        time_limit=options.time_limit,
+        constraints=constraints,
+    )
+    if options.format == "json":
+        sys.stdout.write(dumps(suggestions_value(result)))
+    else:
+        sys.stdout.write(suggestions_text(result, options.n))
+    if result.skipped:
+        return LIMIT
+    return FOUND if result.dishes else UNREACHABLE
+
+
+def run_query(options: argparse.Namespace) -> int:
+    """Run rules of the user's own over the facts."""
+    from foon_asp.query import query
+    from foon_asp.render.query import query_text, query_value
+
+    dataset, domain = _open(options)
+    goals = _find_goals(options, dataset, domain, options.goal)
+    answer = query(
+        domain,
+        Path(options.file),
+        goals,
+        time_limit=options.time_limit,
+        allow_script=options.allow_script,
+    )
+    if options.format == "json":
+        sys.stdout.write(dumps(query_value(answer)))
+    else:
+        sys.stdout.write(query_text(answer))
+    return {"none": UNREACHABLE, "limit": LIMIT}.get(answer.status, FOUND)
 
 
 def run_reach(options: argparse.Namespace) -> int:
@@ -215,15 +409,24 @@ def run_reach(options: argparse.Namespace) -> int:
 
 def run_compare(options: argparse.Namespace) -> int:
     """Compare all methods."""
-    from foon_asp.compare import compare
-    from foon_asp.render.json import comparison_value
-    from foon_asp.render.text import comparison_text
+    from foon_asp.compare import compare, compare_human
+    from foon_asp.render.json import comparison_value, human_value
+    from foon_asp.render.text import comparison_text, human_text
 
+    if options.human_steps is not None and not options.human:
+        raise QueryError("--human-steps limits the table of --human; name both")
     dataset, domain = _open(options)
     goals = _find_goals(options, dataset, domain, options.goal)
     goals = goals or list(dict.fromkeys(map(domain.project, dataset.goals)))
     if not goals:
         raise QueryError("no goals: name some, or a file of them with --goals")
+    if options.human:
+        tables = compare_human(domain, goals, most=options.human_steps, time_limit=options.time_limit)
+        if options.format == "json":
+            sys.stdout.write(dumps([human_value(table) for table in tables]))
+        else:
+            sys.stdout.write(human_text(tables))
+        return LIMIT if any(not proven for table in tables for _, proven in table.trees) else FOUND
     rows = compare(domain, goals, time_limit=options.time_limit)
     if options.format == "json":
         sys.stdout.write(dumps(comparison_value(rows)))

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from foon_asp.constraints import Constraints
 from foon_asp.graph import ObjectNode
 from foon_asp.problem import Domain
 from foon_asp.retrieve import Retrieval, retrieve
+from foon_asp.tree import TaskTree
 
 COLUMNS: dict[str, tuple[str, tuple[str, ...], bool]] = {
     "first_reference": ("first", (), False),
@@ -51,6 +53,38 @@ class Row:
 
     goal: ObjectNode
     cells: dict[str, Cell]
+
+
+@dataclass(frozen=True, slots=True)
+class HumanTable:
+    """The likeliest tree for 0, 1, 2, … human steps, each with whether it is proven; or why there is none."""
+
+    goal: ObjectNode
+    trees: tuple[tuple[TaskTree | None, bool], ...]
+    reason: str
+
+
+def compare_human(
+    domain: Domain, goals: Iterable[ObjectNode], *, most: int | None = None, time_limit: float | None = None
+) -> list[HumanTable]:
+    """Return for each goal the trees and splits with the highest success, the more a human may do.
+
+    It goes on until nothing can fail, or until `most` human steps; `time_limit` (seconds) is for each tree.
+    """
+    return [_human_table(domain, goal, most, time_limit) for goal in goals]
+
+
+def _human_table(domain: Domain, goal: ObjectNode, most: int | None, time_limit: float | None) -> HumanTable:
+    trees: list[tuple[TaskTree | None, bool]] = []
+    while most is None or len(trees) <= most:
+        constraints = Constraints(human_steps=len(trees))
+        result = retrieve(domain, goal, by="success", time_limit=time_limit, constraints=constraints)
+        if result.status == "unreachable":
+            return HumanTable(goal, (), result.reason)
+        trees.append((result.tree, result.status == "optimal"))
+        if result.tree is None or result.tree.costs.success == 1:
+            break
+    return HumanTable(goal, tuple(trees), "")
 
 
 def compare(domain: Domain, goals: Iterable[ObjectNode], *, time_limit: float | None = None) -> list[Row]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from foon_asp.errors import InputError
-from foon_asp.files import read_objects, read_rates, read_utensils
+from foon_asp.files import read_objects, read_rates, read_stock, read_utensils
 from foon_asp.findings import Finding, Severity
 from foon_asp.graph import Foon, ObjectNode
 from foon_asp.kitchen import Kitchen
@@ -93,13 +93,15 @@ def load(
     rates_path = _choose(rates, root / "motion.txt")
     utensils_path = _choose(utensils, root / "utensils.txt")
     goals_path = _choose(goals, root / "goal_nodes.json")
+    stock = read_stock(kitchen_path) if kitchen_path else {}
     return Dataset(
         foon=files.foon,
         kitchen=Kitchen(
-            objects=tuple(read_objects(kitchen_path)) if kitchen_path else (),
+            objects=tuple(stock),
             utensils=read_utensils(utensils_path) if utensils_path else frozenset(),
             rates=read_rates(rates_path) if rates_path else {},
             default_rate=default_rate,
+            quantities={node: quantity for node, quantity in stock.items() if quantity is not None},
         ),
         goals=tuple(read_objects(goals_path)) if goals_path else (),
         findings=files.findings,

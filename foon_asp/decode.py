@@ -5,7 +5,7 @@ from __future__ import annotations
 from foon_asp.errors import InternalError
 from foon_asp.problem import Problem
 from foon_asp.solve import Answer, Value
-from foon_asp.tree import TaskTree
+from foon_asp.tree import TaskTree, likeliest_to_fail
 
 
 def decode_tree(problem: Problem, answer: Answer) -> TaskTree:
@@ -13,7 +13,10 @@ def decode_tree(problem: Problem, answer: Answer) -> TaskTree:
 
     Raises `InternalError` if a founded tree cannot be executed: then an encoding is wrong.
     """
-    tree = TaskTree.of(problem.domain, problem.goals, column(answer, "use"))
+    units, human = column(answer, "use"), column(answer, "human")
+    for most in column(answer, "split"):
+        human = likeliest_to_fail(problem.domain, units, most)
+    tree = TaskTree.of(problem.domain, problem.goals, units, human)
     if problem.founded and not tree.executable:
         missing = ", ".join(map(str, tree.replay.missing))
         raise InternalError(f"a founded task tree fails its replay: {missing} is missing")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import lru_cache
+from pathlib import PurePath
 
 from foon_asp.graph import FunctionalUnit, ObjectNode
 from foon_asp.problem import Problem
@@ -45,6 +46,19 @@ def facts(problem: Problem, *, rates_required: bool = False) -> str:
     return "\n".join(_lines(problem, rates_required)) + "\n"
 
 
+def names(problem: Problem) -> str:
+    """Return two facts more, for queries: objects as people write them, and where each unit was read.
+
+    A file is named without its folders; a unit that was read in several places has a fact for each.
+    """
+    domain = problem.domain
+    lines = [f"name({number},{quote(str(domain.node(number)))})." for number in problem.objects]
+    for number in problem.units:
+        for source in domain.foon.units[number].annotation.sources:
+            lines.append(f"source({number},{quote(PurePath(source.file).name)},{source.line}).")
+    return "\n".join(lines) + "\n"
+
+
 def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
     domain = problem.domain
     if domain.labels_only:
@@ -52,7 +66,7 @@ def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
     labels: set[str] = set()
     for number in problem.objects:
         node = domain.node(number)
-        labels.add(node.label)
+        labels.update(node.named_labels)
         yield _object_facts(number, node)
     rates: set[int] = set()
     for number in problem.units:
@@ -69,6 +83,8 @@ def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
     for number in problem.objects:
         if number in domain.stock:
             yield f"kitchen({number})."
+            if number in domain.quantities:
+                yield f"quantity({number},{domain.quantities[number]})."
     for number in problem.goals:
         yield f"goal({number})."
     for kind, name, values in problem.constraints.named():

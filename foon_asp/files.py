@@ -41,20 +41,47 @@ def read_string(path: Path) -> str:
 
 
 def read_objects(path: Path) -> list[ObjectNode]:
-    """Read a JSON list of objects `{label, states, ingredients, container}`: a kitchen or goals."""
+    """Read a JSON list of objects `{label, states, ingredients, container}`, e.g. goals."""
+    return [node for node, _ in _read_items(path)]
+
+
+def read_stock(path: Path) -> dict[ObjectNode, int | None]:
+    """Read a kitchen: a list of objects, each with how many there are (`quantity`), or None for plenty.
+
+    The quantities of an object that is listed twice add up; of an object with the quantity 0 there is none.
+    """
+    stock: dict[ObjectNode, int | None] = {}
+    for node, quantity in _read_items(path):
+        before = stock.get(node, 0)
+        stock[node] = None if before is None or quantity is None else before + quantity
+    return {node: quantity for node, quantity in stock.items() if quantity != 0}
+
+
+_MOST = 1_000_000
+"""The largest quantity: more is as good as plenty."""
+
+
+def _read_items(path: Path) -> list[tuple[ObjectNode, int | None]]:
     text = read_string(path)
     data = parse_json(text, path)
     if not isinstance(data, list):
         raise InputError(path, 1, "expected a JSON list of objects", 'write [{"label": "…"}, …]')
-    nodes = []
+    found = []
     for place, item in enumerate(data):
         try:
-            nodes.append(object_from_json(item))
+            found.append((object_from_json(item), _quantity(item)))
         except ValueError as error:
             line = _line_of_item(text, place)
             advice = 'write {"label": "…", "states": [], "ingredients": [], "container": null}'
             raise InputError(path, line, f"object {place + 1}: {error}", advice) from None
-    return nodes
+    return found
+
+
+def _quantity(item: dict[str, Any]) -> int | None:
+    quantity = item.get("quantity")
+    if quantity is not None and (type(quantity) is not int or not 0 <= quantity <= _MOST):
+        raise ValueError(f"'quantity' is no whole number from 0 to {_MOST}")
+    return quantity
 
 
 def parse_json(text: str, path: Path) -> Any:

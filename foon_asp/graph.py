@@ -163,6 +163,12 @@ class FunctionalUnit:
         """The place it was first read."""
         return self.annotation.sources[0] if self.annotation.sources else Source()
 
+    @property
+    def duration(self) -> int | None:
+        """How many seconds it took in the annotated video; None if that is not known, or not above 0."""
+        start, end = self.annotation.start, self.annotation.end
+        return None if start is None or end is None else max(0, round(end) - round(start)) or None
+
 
 @dataclass(frozen=True, slots=True)
 class Foon:

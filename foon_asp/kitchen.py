@@ -11,12 +11,17 @@ from foon_asp.graph import FunctionalUnit, ObjectNode
 
 @dataclass(frozen=True, slots=True)
 class Kitchen:
-    """Objects at hand, in file order; utensil labels; success rates by motion label, in [0, 1]."""
+    """Objects at hand, in file order; utensil labels; success rates by motion label, in [0, 1].
+
+    `quantities`: how many there are of those objects of which there are not plenty, from 1. They matter
+    where things are used up; retrieval takes no notice of them.
+    """
 
     objects: tuple[ObjectNode, ...]
     utensils: frozenset[str] = frozenset()
     rates: Mapping[str, float] = field(default_factory=dict)
     default_rate: float | None = None
+    quantities: Mapping[ObjectNode, int] = field(default_factory=dict)
 
     def known_rate(self, unit: FunctionalUnit) -> float | None:
         """Return the chance that a unit succeeds: its own, its motion's, the default, or None.

@@ -54,10 +54,16 @@ def planning_view(foon: Foon, reading: Reading, level: int) -> tuple[Foon, list[
 
 
 def project_kitchen(kitchen: Kitchen, level: int) -> Kitchen:
-    """Return a kitchen with its objects projected, each once."""
+    """Return a kitchen with its objects projected, each once; there is plenty if there is of one of them."""
     if level == FULL:
         return kitchen
-    return replace(kitchen, objects=tuple(dict.fromkeys(project(node, level) for node in kitchen.objects)))
+    stock: dict[ObjectNode, int | None] = {}
+    for node in kitchen.objects:
+        quantity, image = kitchen.quantities.get(node), project(node, level)
+        before = stock.get(image, 0)
+        stock[image] = None if before is None or quantity is None else before + quantity
+    quantities = {node: quantity for node, quantity in stock.items() if quantity is not None}
+    return replace(kitchen, objects=tuple(stock), quantities=quantities)
 
 
 def _view(foon: Foon, inputs: Sequence[Ids], outputs: Sequence[Ids], level: int) -> tuple[Foon, list[int]]:

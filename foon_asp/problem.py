@@ -55,6 +55,13 @@ class Domain:
         return project(node, self.level)
 
     @cached_property
+    def quantities(self) -> dict[int, int]:
+        """How many there are of the objects in stock of which there are not plenty."""
+        ids = zip(self.stock, dict.fromkeys(self.kitchen.objects), strict=True)
+        counts = self.kitchen.quantities
+        return {number: counts[node] for number, node in ids if node in counts}
+
+    @cached_property
     def reading(self) -> Reading:
         return Reading(self.foon, self.kitchen.utensils, strict=self.strict, labels_only=self.labels_only)
 

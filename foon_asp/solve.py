@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Union
 
 import clingo
@@ -24,13 +24,22 @@ class Answer:
     `proven` says that no better model exists (or that none exists at all). `costs` is what the model pays
     and `bounds` what is proven of it so far, one number for each priority, the highest first; a bound
     holds among the models that are best by the priorities before. clingo leaves out a priority at which
-    nothing can ever be paid.
+    nothing can ever be paid; `priorities` are those that are there.
     """
 
     atoms: tuple[Atom, ...] | None
     proven: bool
     bounds: tuple[int, ...] = ()
     costs: tuple[int, ...] = ()
+    priorities: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """Best models; `complete` says that there are no others."""
+
+    found: tuple[Answer, ...]
+    complete: bool
 
 
 class ProgramError(InternalError):
@@ -48,7 +57,8 @@ class Solver:
         options: Sequence[str] = (),
     ) -> None:
         self._messages: list[str] = []
-        arguments = [*options]
+        # Two encodings may well include a third one both; clingo takes it once, and need not say so.
+        arguments = ["--warn=no-file-included", *options]
         for name, value in sorted((constants or {}).items()):
             arguments += ["-c", f"{name}={value}"]
         self._control = clingo.Control(arguments, self._log)
@@ -91,30 +101,61 @@ class Solver:
         configuration.solve.opt_mode = "opt"
         return Answer(answer.atoms, answer.atoms is None)
 
+    def all_best(self, distinct: str, deadline: float | None = None, most: int | None = None) -> Answers:
+        """Return all best models, each set of atoms of the predicate `distinct` once, in their order.
+
+        It ends early at the deadline, and once there are `most` models.
+        """
+        configuration: Any = self._control.configuration
+        configuration.solve.opt_mode, configuration.solve.models = "optN", 0
+        configuration.solve.project = "show"
+        found: dict[tuple[Atom, ...], Answer] = {}
+
+        def on_model(model: clingo.Model) -> bool:
+            if model.optimality_proven or not model.cost:
+                answer = Answer(_atoms(model), True, tuple(model.cost), tuple(model.cost), _priorities(model))
+                found.setdefault(tuple(atom for atom in answer.atoms or () if atom[0] == distinct), answer)
+            return most is None or len(found) < most
+
+        exhausted = self._run(on_model, deadline)
+        configuration.solve.opt_mode, configuration.solve.models = "opt", -1
+        configuration.solve.project = "no"
+        return Answers(tuple(found[atoms] for atoms in sorted(found)), exhausted)
+
     def best(self, deadline: float | None = None) -> Answer:
         """Return the best model, or the best found until the deadline (`time.monotonic()` seconds)."""
         if deadline is not None and time.monotonic() >= deadline:
             return Answer(None, False)
-        found: list[tuple[tuple[Atom, ...], tuple[int, ...]]] = []
+        found: list[Answer] = []
 
         def on_model(model: clingo.Model) -> None:
-            found[:] = [(_atoms(model), tuple(model.cost))]
+            found[:] = [Answer(_atoms(model), False, (), tuple(model.cost), _priorities(model))]
 
+        proven = self._run(on_model, deadline)
+        if not found:
+            return Answer(None, proven, () if proven else self._lower_bounds())
+        # Where there is nothing to pay the first model is a best one, and clingo looks no further.
+        proven = proven or not found[0].costs
+        bounds = found[0].costs if proven else self._lower_bounds()
+        return replace(found[0], proven=proven, bounds=bounds)
+
+    def _run(self, on_model: Callable[[clingo.Model], bool | None], deadline: float | None) -> bool:
+        """Solve until the deadline, and say whether nothing is left to search."""
         with self._control.solve(on_model=on_model, async_=True) as handle:
             if deadline is None:
                 handle.wait()
             elif not handle.wait(max(0.0, deadline - time.monotonic())):
                 handle.cancel()
-            proven = bool(handle.get().exhausted)
-        atoms, costs = found[0] if found else (None, ())
-        # Where there is nothing to pay the first model is a best one, and clingo looks no further.
-        proven = proven or (atoms is not None and not costs)
-        return Answer(atoms, proven, costs if proven else self._lower_bounds(), costs)
+            return bool(handle.get().exhausted)
 
     def _lower_bounds(self) -> tuple[int, ...]:
         """Return what is proven of each priority, of all: the callback for bounds leaves some out."""
         summary: Any = self._control.statistics["summary"]
         return tuple(int(bound) for bound in summary.get("lower", ()))
+
+
+def _priorities(model: clingo.Model) -> tuple[int, ...]:
+    return tuple(model.priority)
 
 
 def _atoms(model: clingo.Model) -> tuple[Atom, ...]:

@@ -6,22 +6,9 @@ import math
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
+from foon_asp.criteria import Costs
 from foon_asp.graph import FunctionalUnit, ObjectNode
 from foon_asp.problem import Domain
-
-
-@dataclass(frozen=True, slots=True)
-class Costs:
-    """What a tree costs by each criterion; `success` is a chance in [0, 1].
-
-    `success` is None if a rate is unknown, `depth` (rounds of parallel execution) if the tree cannot be
-    executed.
-    """
-
-    units: int
-    inputs: int
-    success: float | None
-    depth: int | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +29,7 @@ class TaskTree:
     """Functional units in the order of execution, made and checked by `TaskTree.of`.
 
     `rounds` says for each unit in which round of parallel execution it is done (0 if never);
-    `executable` says how the replay ended.
+    `executable` says how the replay ended. `human` are the units that a human does and never fails at.
     """
 
     domain: Domain
@@ -50,9 +37,12 @@ class TaskTree:
     units: tuple[int, ...]
     rounds: tuple[int, ...]
     replay: Replay
+    human: frozenset[int] = frozenset()
 
     @classmethod
-    def of(cls, domain: Domain, goals: Iterable[int], units: Collection[int]) -> TaskTree:
+    def of(
+        cls, domain: Domain, goals: Iterable[int], units: Collection[int], human: Iterable[int] = ()
+    ) -> TaskTree:
         """Bring units into an order that can be executed, if there is one, and replay it.
 
         Steps that lead to the same object stand together. Units that can never be executed come last,
@@ -63,7 +53,7 @@ class TaskTree:
         order = _order(domain, goals, executable)
         order += sorted(set(units) - executable.keys())
         rounds = tuple(executable.get(unit, 0) for unit in order)
-        return cls(domain, goals, tuple(order), rounds, replay(domain, goals, order))
+        return cls(domain, goals, tuple(order), rounds, replay(domain, goals, order), frozenset(human))
 
     @property
     def executable(self) -> bool:
@@ -84,14 +74,31 @@ class TaskTree:
 
     @property
     def costs(self) -> Costs:
-        rates = [self.domain.kitchen.known_rate(unit) for unit in self.steps]
+        rates = [self.domain.kitchen.known_rate(unit) for unit in self.steps if unit.id not in self.human]
         known = [rate for rate in rates if rate is not None]
+        utensils = self.domain.kitchen.utensils
+        listed = [self.domain.node(number) for unit in self.steps for number in (*unit.inputs, *unit.outputs)]
+        relations = [(state.name, state.relatum) for node in listed for state in node.states if state.relatum]
+        labels = {node.label for node in listed}
+        filled = {node.label for node in listed if node.contents}
         return Costs(
             units=len(self.units),
             inputs=sum(len(unit.inputs) for unit in self.steps),
             success=math.prod(known) if len(known) == len(rates) else None,
             depth=self.depth,
+            tools=len(utensils & (labels | {label for _, label in relations})),
+            dirty=len(utensils & (filled | {label for name, label in relations if name == "in"})),
+            motions=len({unit.motion for unit in self.steps}),
+            time=sum(unit.duration or 0 for unit in self.steps),
+            human=len(self.human),
         )
+
+
+def likeliest_to_fail(domain: Domain, units: Iterable[int], count: int) -> list[int]:
+    """Return the units, at most so many, that are likeliest to fail; never one that cannot fail."""
+    rates = {unit: domain.kitchen.known_rate(domain.foon.units[unit]) for unit in units}
+    fallible = [(rate, unit) for unit, rate in rates.items() if rate is not None and rate < 1]
+    return [unit for _, unit in sorted(fallible)[:count]]
 
 
 def replay(domain: Domain, goals: Iterable[int], units: Iterable[int]) -> Replay:

@@ -6,7 +6,7 @@ unless it is bare. Shares nothing with `foon_asp.reading` or the encodings.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 from math import prod
@@ -71,10 +71,18 @@ def sums(domain: Domain, units: Iterable[int]) -> Costs:
     """Return what a set of units costs by the criteria that do not ask whether it can be executed."""
     used = [domain.foon.units[number] for number in units]
     rates = [Fraction(round(domain.kitchen.rates[unit.motion] * 1000), 1000) for unit in used]
+    listed = [domain.foon.objects[o] for unit in used for o in (*unit.inputs, *unit.outputs)]
+    states = [(thing, state) for thing in listed for state in thing.states]
+    handled = {thing.label for thing in listed} | {state.relatum for _, state in states if state.relatum}
+    holding = {thing.label for thing, state in states if state.contents}
+    holding |= {state.relatum for _, state in states if state.name == "in" and state.relatum}
     return {
         "units": len(used),
         "success": prod(rates, start=Fraction(1)),
         "inputs": sum(len(unit.inputs) for unit in used),
+        "tools": sum(label in domain.kitchen.utensils for label in handled),
+        "dirty": sum(label in domain.kitchen.utensils for label in holding),
+        "motions": len({unit.motion for unit in used}),
     }
 
 
@@ -86,11 +94,26 @@ def costs(domain: Domain, goal: ObjectNode, units: Collection[int]) -> Costs | N
     return sums(domain, units) | {"depth": at_hand[goal]}
 
 
+def every_set(domain: Domain) -> Iterator[tuple[int, ...]]:
+    """Yield every set of units, the smaller ones first."""
+    numbers = range(len(domain.foon.units))
+    return (units for size in range(len(numbers) + 1) for units in combinations(numbers, size))
+
+
 def trees(domain: Domain, goal: ObjectNode) -> list[Costs]:
     """Return the costs of every task tree there is."""
-    numbers = range(len(domain.foon.units))
-    sets = (units for size in range(len(numbers) + 1) for units in combinations(numbers, size))
-    return [found for units in sets if (found := costs(domain, goal, units)) is not None]
+    return [found for units in every_set(domain) if (found := costs(domain, goal, units)) is not None]
+
+
+def tree_sets(domain: Domain, goals: Collection[ObjectNode]) -> dict[frozenset[int], Costs]:
+    """Return the units and costs of every task tree that makes all goals; `depth` is that of the last."""
+    found: dict[frozenset[int], Costs] = {}
+    for units in every_set(domain):
+        at_hand, done = closure(domain, units)
+        if done == set(units) and all(goal in at_hand for goal in goals):
+            depth = max(at_hand[goal] for goal in goals)
+            found[frozenset(units)] = sums(domain, units) | {"depth": depth}
+    return found
 
 
 def best(found: Iterable[Costs], by: Sequence[str]) -> Costs:

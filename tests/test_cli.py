@@ -56,7 +56,7 @@ def test_retrieve_prints_steps(capsys: pytest.CaptureFixture[str], folder: Path)
         "onion [chopped]\n"
         "1 step, 1 round, 2 inputs, success 0.5 (optimal by units, proven optimal)\n"
         "\n"
-        "  1. chop  [FOON.txt:1]\n"
+        "  1. chop  [FOON.txt:1, unit 0]\n"
         "     take onion [whole]\n"
         "     with knife\n"
         "     get  onion [chopped]\n"
@@ -258,3 +258,51 @@ def test_same_bytes_whatever_the_hash_seed(public_data: Path, tmp_path: Path) ->
             for seed in ("0", "1", "4711")
         }
         assert len(outputs) == 1, command
+
+
+def test_explain_says_what_is_missing_and_what_steps_are_for(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "explain", "whipped cream", "--step", "48")
+    assert status == 0
+    assert "step 4 of 5: shake" in out
+    assert run_json(capsys, "explain", "whipped cream")["status"] == "reachable"
+    assert run(capsys, "explain", "whipped cream", "--step", "3")[0] == 2
+    assert run(capsys, "explain", "whipped cream", "--instead")[0] == 2
+    status, out, _ = run(capsys, "explain", "omelette", "--diet", "vegan")
+    assert status == 1
+    assert "diet vegan" in out
+
+
+def test_explain_tells_its_first_sentence_once(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    kitchen = tmp_path / "kitchen.json"
+    kitchen.write_text('[{"label": "ice crusher"}]')
+    status, out, _ = run(capsys, "explain", "ice", "--kitchen", kitchen)
+    assert status == 1
+    assert out.count("no task tree") == 1
+    assert "drinking glass [empty]" in out
+
+
+def test_suggest_ranks_dishes(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "suggest", "--using", "egg", "-n", "3")
+    assert status == 0
+    assert "made with egg" in out
+    assert run(capsys, "suggest", "--using", "eggg")[0] == 2
+
+
+def test_query_prints_what_rules_show(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    rules = tmp_path / "shakes.lp"
+    rules.write_text('shakes(U) :- motion(U,"shake").')
+    status, out, _ = run(capsys, "query", rules)
+    assert status == 0
+    assert "shakes" in out
+    assert "48" in out.split()
+    rules.write_text("shakes(U) :- use(U).")
+    assert run(capsys, "query", rules)[0] == 2
+
+
+def test_the_trace_is_printed_before_the_tree(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(capsys, "retrieve", "ice", "--method", "ids", "--trace")
+    assert status == 0
+    assert out.startswith("limit 0: ice [crushed, frozen] in [drinking glass]\nlimit 1: ")
+    value = run_json(capsys, "retrieve", "ice", "--method", "ids", "--trace")
+    assert [bound["reached"] for bound in value["trace"]] == [False, True]
+    assert run(capsys, "retrieve", "ice", "--trace")[0] == 2

@@ -41,6 +41,7 @@ FLAGS: dict[str, tuple[Constraints, str]] = {
         'ok("pour";"add";"close";"shake";"scrape out"). violated("x",U) :- use(U), motion(U,M), not ok(M).',
     ),
     "use unit": (Constraints(use_units=(3,)), 'violated("x",3) :- not use(3), unit(3).'),
+    "avoid unit": (Constraints(avoid_units=(4,)), 'violated("x",4) :- use(4).'),
     "max units": (Constraints(max_units=12), 'violated("x",0) :- 13 { use(U) }.'),
     "min success": (
         Constraints(min_success=0.2),
@@ -58,6 +59,11 @@ FLAGS: dict[str, tuple[Constraints, str]] = {
 def test_a_flag_equals_its_rule(built_in: Dataset, name: str, by: str) -> None:
     flag, rule = FLAGS[name]
     where = built_in.domain()
+    if name == "avoid unit":
+        first = retrieve(where, built_in.goals[0], "optimal", by).tree
+        assert first is not None
+        unit = first.units[0]
+        flag, rule = Constraints(avoid_units=(unit,)), f'violated("x",{unit}) :- use({unit}).'
     if name == "use unit":
         # A unit that does not lie on the way is only sliced in for the flag, which knows it.
         flag, rule = Constraints(use_units=(0,)), 'violated("x",0) :- not use(0), unit(0).'
@@ -74,6 +80,55 @@ def test_a_flag_equals_its_rule(built_in: Dataset, name: str, by: str) -> None:
             assert ours.tree.costs.success == pytest.approx(theirs.tree.costs.success)
         differs += ours.tree is None or ours.tree.units != (free.tree.units if free.tree else ())
     assert differs, "the flag changed nothing, so it was not tested"
+
+
+OBJECTIVES = {
+    "units": 'penalty("mine",U,1) :- use(U).',
+    "inputs": 'penalty("mine",(U,O),1) :- use(U), input(U,O).',
+    "success": 'penalty("mine",U,C) :- use(U), success_rate(U,R), failure_cost(R,C).',
+    "tools": 'penalty("mine",L,1) :- use(U), handles(U,L), utensil(L).',
+    "dirty": 'penalty("mine",L,1) :- use(U), lists(U,O), label(O,L), content(O,_,_), utensil(L).'
+    'penalty("mine",L,1) :- use(U), lists(U,O), relation(O,"in",L), utensil(L).',
+    "motions": 'penalty("mine",M,1) :- use(U), motion(U,M).',
+}
+
+
+@pytest.mark.parametrize("name", OBJECTIVES)
+def test_a_criterion_equals_its_rules(built_in: Dataset, name: str) -> None:
+    where = built_in.domain()
+    mine = Constraints(rules=('criterion("mine",9). ' + OBJECTIVES[name],))
+    differs = 0
+    for goal in built_in.goals[::3]:
+        ours = retrieve(where, goal, by=name).tree
+        theirs = retrieve(where, goal, constraints=mine).tree
+        assert (ours is None) == (theirs is None)
+        if ours and theirs:
+            assert getattr(ours.costs, name) == pytest.approx(getattr(theirs.costs, name))
+            differs += getattr(ours.costs, name) != 1
+    assert differs
+
+
+def test_a_depth_equals_its_rule(built_in: Dataset) -> None:
+    where = built_in.domain()
+    for goal in built_in.goals[::3]:
+        for depth in (3, 6, 9):
+            rule = Constraints(rules=(f'violated("x",{depth}) :- late({depth}).',), max_depth=99)
+            ours = retrieve(where, goal, constraints=Constraints(max_depth=depth)).tree
+            theirs = retrieve(where, goal, constraints=rule).tree
+            assert (ours is None) == (theirs is None)
+            assert ours is None or theirs is None or len(ours.units) == len(theirs.units)
+
+
+def test_human_steps_equal_their_rules() -> None:
+    units = ["egg -crack-> yolk", "yolk -beat-> foam", "foam -fry-> dish", "egg -boil-> dish"]
+    where = domain(units, "egg", rates={"crack": 0.9, "beat": 0.5, "fry": 0.8, "boil": 0.41})
+    for most, chance in ((0, 0.41), (1, 1.0)):
+        rule = f"{{ human(U) }} :- use(U). #show human/1. :- {most + 1} {{ human(U) }}."
+        for each in (Constraints(human_steps=most), Constraints(rules=(rule,))):
+            tree = retrieve(where, node("dish"), by="success", constraints=each).tree
+            assert tree is not None
+            assert tree.costs.success == pytest.approx(chance)
+            assert len(tree.human) == most
 
 
 Check = Callable[[Domain, Collection[int], brute_force.Costs], bool]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +13,17 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from foon_asp.cli import main
+from foon_asp.criteria import CRITERIA, Level
 from foon_asp.oddities import ODDITIES
 
 ROOT = Path(__file__).parent.parent
 SCHEMAS = ROOT / "docs" / "schema"
 GOALS = ROOT / "data" / "goal_nodes.json"
 GOAL = "whipped cream"
-NAMES = ["retrieve", "reach", "compare", "stats", "audit", "goals"]
+NAMES = ["retrieve", "menu", "reach", "compare", "stats", "audit", "goals"]
+"""The schemas that are tested here."""
+
+ALL = sorted(path.name.removesuffix(".schema.json") for path in SCHEMAS.iterdir())
 
 METHODS = [
     [],
@@ -25,6 +31,11 @@ METHODS = [
     ["--method", "optimal", "--by", "inputs,units"],
     ["--method", "optimal", "--by", "depth,success"],
     ["--method", "optimal", "--by", "success,depth"],
+    ["--by", "tools,dirty,motions"],
+    ["--by", "2*units+inputs"],
+    ["--by", "0.5*success + units, depth"],
+    ["--human-steps", "2"],
+    ["--by", "human,units", "--min-success", "0.8"],
     ["--method", "greedy"],
     ["--method", "greedy", "--by", "inputs"],
     ["--method", "ids"],
@@ -65,29 +76,47 @@ def object_schemas(value: object) -> list[dict[str, Any]]:
     return own + [found for item in value.values() for found in object_schemas(item)]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", ALL)
 def test_schemas_are_strict_and_say_what_each_member_means(name: str) -> None:
     value = schema(name)
     Draft202012Validator.check_schema(value)
     for part in object_schemas(value):
         if "propertyNames" in part:
-            # Counts by name: any of the names may be there.
-            assert part["propertyNames"]["enum"]
-            assert part["additionalProperties"]["type"] == "integer"
-            continue
-        assert part["additionalProperties"] is False
-        assert set(part.get("required", ())) <= part["properties"].keys()
-        assert all(member.get("description") for member in part["properties"].values())
+            # Values by name: any of the names may be there, and no other.
+            assert part["propertyNames"].keys() & {"enum", "$ref"}
+            assert part["additionalProperties"]["type"] in ("integer", "number")
+        else:
+            assert part["additionalProperties"] is False
+        properties = part.get("properties", {})
+        assert set(part.get("required", ())) <= properties.keys()
+        assert all(member.get("description") for member in properties.values())
 
 
-def test_schemas_share_the_shape_of_an_object() -> None:
-    shapes = [schema(name)["$defs"]["object"] for name in NAMES]
-    assert all(shape == shapes[0] for shape in shapes)
-    assert set(shapes[0]["required"]) == set(shapes[0]["properties"])
+def test_schemas_share_their_shapes() -> None:
+    for name, least in (("object", 9), ("criteria", 2), ("bound", 2)):
+        shapes = [defs[name] for defs in (schema(each)["$defs"] for each in ALL) if name in defs]
+        assert len(shapes) >= least
+        assert all(shape == shapes[0] for shape in shapes)
+    value = schema("goals")["$defs"]["object"]
+    assert set(value["required"]) == set(value["properties"])
+
+
+def test_schemas_know_all_criteria() -> None:
+    for name in ("retrieve", "menu"):
+        assert tuple(schema(name)["$defs"]["costs"]["properties"]) == CRITERIA
+    level = Draft202012Validator(schema("menu")["$defs"]["criteria"])
+    for text in (*CRITERIA, "2*units+inputs", "0.5*success+depth"):
+        assert str(Level.parse(text)) == text
+        assert level.is_valid(text)
+    for text in ("", "unit", "units,inputs", "2*", "units+", "-1*units", "units*2", "2 units"):
+        assert not level.is_valid(text)
 
 
 def test_every_schema_is_tested() -> None:
-    assert sorted(path.name for path in SCHEMAS.iterdir()) == sorted(f"{name}.schema.json" for name in NAMES)
+    others = [path for path in Path(__file__).parent.glob("test_*.py") if path != Path(__file__)]
+    texts = [path.read_text(encoding="utf-8") for path in others]
+    for name in ALL:
+        assert name in NAMES or any(f'"{name}.schema.json"' in text for text in texts), name
 
 
 def test_schemas_name_the_codes_of_all_findings() -> None:
@@ -152,6 +181,203 @@ def test_retrieve_a_list_of_goals(tmp_path: Path, capsys: pytest.CaptureFixture[
     path.write_text(json.dumps(goals), encoding="utf-8")
     value = output(capsys, "retrieve", "--goals", str(path))
     assert [answer["goal"]["label"] for answer in value] == [goal["label"] for goal in goals]
+
+
+def test_retrieve_under_constraints(capsys: pytest.CaptureFixture[str]) -> None:
+    value = output(capsys, "retrieve", GOAL, "--avoid-motion", "shake", "--max-units", "9")
+    assert value["constraints"] == ["avoid motion shake", "at most 9 units"]
+    value = output(capsys, "retrieve", GOAL, "--max-units", "1", status=1)
+    assert value["status"] == "unreachable"
+
+
+def test_retrieve_says_who_does_what(capsys: pytest.CaptureFixture[str]) -> None:
+    value = output(capsys, "retrieve", GOAL, "--human-steps", "2")
+    assert [unit["agent"] for unit in value["units"]].count("human") == value["costs"]["human"] == 2
+
+
+def test_bounds_go_by_the_texts_of_what_is_minimised(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--by", "2*units+inputs,success", "--time-limit", "0"]
+    value = output(capsys, "retrieve", "pesto pasta", *options, status=3)
+    assert list(value["bound"]) == value["by"] == ["2*units+inputs", "success"]
+    menu = output(capsys, "menu", "pesto pasta", GOAL, *options, status=3)
+    assert list(menu["bound"]) == menu["by"] == ["2*units+inputs", "success"]
+    assert menu["together"]["size"] > 0
+
+
+SEVERAL = {
+    "best": ["-k", "3"],
+    "all optimal": ["--all-optimal"],
+    "diverse": ["--diverse", "2", "--by", "2*units+depth"],
+    "pareto": ["--pareto", "units,success"],
+}
+
+
+@pytest.mark.parametrize("kind", SEVERAL)
+def test_retrieve_several_trees(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    value = output(capsys, "retrieve", GOAL, *SEVERAL[kind], "--avoid-motion", "shake")
+    assert (value["kind"], value["status"]) == (kind, "optimal")
+    assert value["constraints"] == ["avoid motion shake"]
+    sets = {frozenset(unit["id"] for unit in tree["units"]) for tree in value["trees"]}
+    assert len(sets) == len(value["trees"]) > 0
+
+
+@pytest.mark.parametrize("kind", SEVERAL)
+def test_several_trees_of_which_there_are_none(
+    kind: str, empty_kitchen: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    value = output(capsys, "retrieve", GOAL, *SEVERAL[kind], "--kitchen", empty_kitchen, status=1)
+    assert (value["status"], value["trees"]) == ("unreachable", [])
+    assert value["reason"]
+    value = output(capsys, "retrieve", GOAL, *SEVERAL[kind], "--time-limit", "0", status=3)
+    assert (value["status"], value["reason"]) == ("limit", "")
+
+
+def test_retrieve_several_trees_for_a_list_of_goals(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    goals = json.loads(GOALS.read_text(encoding="utf-8"))[:2]
+    path = tmp_path / "goals.json"
+    path.write_text(json.dumps(goals), encoding="utf-8")
+    value = output(capsys, "retrieve", "--goals", str(path), "-k", "2")
+    assert [len(answer["trees"]) for answer in value] == [2, 2]
+
+
+def test_menu(capsys: pytest.CaptureFixture[str]) -> None:
+    value = output(capsys, "menu", "greek salad", "hummus", "--human-steps", "1", "--by", "units,success")
+    assert value["together"]["size"] < sum(dish["costs"]["units"] for dish in value["apart"])
+    assert value["together"]["costs"]["human"] == 1
+    assert {len(unit["dishes"]) for unit in value["together"]["units"]} == {1, 2}
+
+
+def test_menu_with_a_dish_that_cannot_be_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    kitchen = json.loads((ROOT / "data" / "kitchen.json").read_text(encoding="utf-8"))
+    path = tmp_path / "kitchen.json"
+    path.write_text(
+        json.dumps([each for each in kitchen if each["label"] != "heavy cream"]), encoding="utf-8"
+    )
+    dishes = [GOAL, "hummus", "--kitchen", str(path)]
+    value = output(capsys, "menu", *dishes, status=1)
+    assert value["together"]["costs"] is value["together"]["size"] is None
+    assert [dish["status"] for dish in value["apart"]] == ["unreachable", "optimal"]
+    value = output(capsys, "menu", *dishes, "--leave-out")
+    assert [dish["goal"]["label"] for dish in value["left_out"]] == ["whipped cream"]
+    assert value["together"]["size"] == value["apart"][0]["costs"]["units"]
+
+
+def test_compare_with_a_human(empty_kitchen: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (table,) = output(capsys, "compare", GOAL, "--human")
+    assert [step["human_steps"] for step in table["steps"]] == list(range(len(table["steps"])))
+    assert [len(step["human"]) for step in table["steps"]] == list(range(len(table["steps"])))
+    assert table["steps"][-1]["success"] == 1
+    (table,) = output(capsys, "compare", GOAL, "--human", "--kitchen", empty_kitchen)
+    assert table["steps"] == []
+    assert table["reason"]
+
+
+ANSWERS = {
+    "one tree": ["retrieve", GOAL, "--by", "2*units+inputs", "--time-limit", "0"],
+    "several trees": ["retrieve", GOAL, "--pareto", "units,success"],
+    "menu": ["menu", GOAL, "hummus", "--time-limit", "0"],
+    "human": ["compare", GOAL, "--human"],
+}
+
+WRONG: dict[str, list[tuple[list[str | int], Any]]] = {
+    "one tree": [
+        (["method"], "best"),
+        (["by", 0], "units*2"),
+        (["by"], ["units", "units"]),
+        (["constraints"], [1]),
+        (["status"], "proven"),
+        (["costs", "tools"], -1),
+        (["costs", "time"], 1.5),
+        (["costs", "success"], 1.01),
+        (["bound"], {}),
+        (["bound"], {"unit": 3}),
+        (["bound"], {"units": -1}),
+        (["bound"], {"success": 2}),
+        (["bound"], {"2*units+inputs": "3"}),
+        (["units", 0, "agent"], "cook"),
+        (["units", 0, "id"], -1),
+        (["units", 0, "inputs", 0, "label"], ""),
+        (["units", 0, "dishes"], []),
+    ],
+    "several trees": [
+        (["kind"], "all-optimal"),
+        (["by"], []),
+        (["status"], "found"),
+        (["complete"], None),
+        (["trees", 0, "size"], None),
+        (["trees", 0, "costs"], None),
+        (["trees", 0, "units", 0, "agent"], None),
+        (["bound"], None),
+    ],
+    "menu": [
+        (["by"], []),
+        (["status"], "found"),
+        (["together", "units", 0, "dishes"], None),
+        (["together", "units", 0, "dishes"], ["hummus"]),
+        (["apart", 0, "costs", "human"], None),
+        (["left_out"], [{"goal": None, "reason": "none"}]),
+        (["goal"], None),
+    ],
+    "human": [
+        ([0, "steps", 0, "human_steps"], None),
+        ([0, "steps", 0, "success"], 1.5),
+        ([0, "steps", 1, "human"], [3, 3]),
+        ([0, "steps", 0, "proven"], "yes"),
+        ([0, "optimal"], {"units": 3, "executable": True, "proven": True}),
+        ([], []),
+    ],
+}
+
+
+def places(value: object, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """Yield the path of each object in a value, of lists only their first and last item."""
+    if isinstance(value, dict):
+        yield path
+        for name, member in value.items():
+            yield from places(member, (*path, name))
+    elif isinstance(value, list):
+        for number in sorted({0, len(value) - 1} if value else ()):
+            yield from places(value[number], (*path, number))
+
+
+def at(value: Any, path: tuple[str | int, ...]) -> Any:
+    for part in path:
+        value = value[part]
+    return value
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_no_member_may_be_missing_or_added(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    command = ANSWERS[name]
+    value = output(capsys, *command, status=3 if "--time-limit" in command else 0)
+    validator = Draft202012Validator(schema(command[0]))
+    count = 0
+    for path in places(value):
+        for member in (*at(value, path), None):
+            spoilt = copy.deepcopy(value)
+            if member is None:
+                at(spoilt, path)["other"] = None
+            else:
+                del at(spoilt, path)[member]
+            assert not validator.is_valid(spoilt), (path, member)
+            count += 1
+    assert count > 20
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_wrong_values_are_refused(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    command = ANSWERS[name]
+    value = output(capsys, *command, status=3 if "--time-limit" in command else 0)
+    validator = Draft202012Validator(schema(command[0]))
+    for path, wrong in WRONG[name]:
+        spoilt = copy.deepcopy(value)
+        if path:
+            at(spoilt, tuple(path[:-1]))[path[-1]] = wrong
+        else:
+            spoilt = wrong
+        assert not validator.is_valid(spoilt), path
 
 
 def test_reach(capsys: pytest.CaptureFixture[str]) -> None:

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from typing import Any
 
-from foon_asp.compare import Row
+from foon_asp.alternatives import Alternatives
+from foon_asp.compare import HumanTable, Row
+from foon_asp.constraints import Constraints
 from foon_asp.graph import Foon, FunctionalUnit
+from foon_asp.menu import Menu
 from foon_asp.problem import Domain
 from foon_asp.retrieve import Retrieval
 from foon_asp.state_syntax import object_to_json
+from foon_asp.tree import TaskTree
 
 
 def dumps(value: object) -> str:
@@ -35,28 +40,97 @@ def unit_value(foon: Foon, unit: FunctionalUnit) -> dict[str, Any]:
 def retrieval_value(result: Retrieval) -> dict[str, Any]:
     """Return the value that `retrieve --format json` writes for one goal."""
     tree = result.tree
-    costs = tree.costs if tree else None
+    shown = tree_value(tree) if tree else {"size": None, "depth": None, "costs": None, "units": []}
     return {
         "goal": object_to_json(result.goal),
         "method": result.method,
         "by": list(result.by),
         "founded": result.founded,
+        "constraints": constraint_names(result.constraints),
         "status": result.status,
         "reason": result.reason,
         "executable": tree.executable if tree else False,
-        "size": costs.units if costs else None,
-        "depth": costs.depth if costs else None,
-        "costs": {
-            "units": costs.units,
-            "inputs": costs.inputs,
-            "success": costs.success,
-            "depth": costs.depth,
-        }
-        if costs
-        else None,
+        **shown,
         "bound": result.bound or None,
-        "units": [unit_value(tree.domain.foon, unit) for unit in tree.steps] if tree else [],
+        "own": {str(priority): paid for priority, paid in result.own.items()},
         "seconds": round(result.seconds, 6),
+    }
+
+
+def tree_value(tree: TaskTree) -> dict[str, Any]:
+    """Return a task tree: what it costs, and its units in the order of execution, with who does them."""
+    costs = tree.costs
+    units = [
+        unit_value(tree.domain.foon, unit) | {"agent": "human" if unit.id in tree.human else "robot"}
+        for unit in tree.steps
+    ]
+    return {"size": costs.units, "depth": costs.depth, "costs": asdict(costs), "units": units}
+
+
+def constraint_names(constraints: Constraints) -> list[str]:
+    """Return the names of constraints, as an explanation has them; rules of the user's own are one."""
+    names = [name for _, name, _ in constraints.named()]
+    return [*names, *(["rules"] if constraints.rules else [])]
+
+
+def alternatives_value(result: Alternatives) -> dict[str, Any]:
+    """Return the value that `retrieve` writes for one goal where several trees were asked for."""
+    return {
+        "goal": object_to_json(result.goal),
+        "kind": result.kind,
+        "by": list(result.by),
+        "constraints": constraint_names(result.constraints),
+        "status": result.status,
+        "reason": result.reason,
+        "complete": result.complete,
+        "proven": result.proven,
+        "trees": [tree_value(tree) for tree in result.trees],
+        "seconds": round(result.seconds, 6),
+    }
+
+
+def menu_value(menu: Menu) -> dict[str, Any]:
+    """Return the value that `menu --format json` writes."""
+    tree = menu.together.tree
+    steps = tree_value(tree) if tree else {"size": None, "depth": None, "costs": None, "units": []}
+    for unit in steps["units"]:
+        unit["dishes"] = [object_to_json(dish) for dish in menu.dishes[unit["id"]]]
+    return {
+        "by": list(menu.together.by),
+        "constraints": constraint_names(menu.together.constraints),
+        "status": menu.together.status,
+        "reason": menu.together.reason,
+        "together": steps,
+        "bound": menu.together.bound or None,
+        "apart": [
+            {
+                "goal": object_to_json(each.goal),
+                "status": each.status,
+                "reason": each.reason,
+                "costs": asdict(each.tree.costs) if each.tree else None,
+            }
+            for each in menu.apart
+        ],
+        "left_out": [{"goal": object_to_json(each.goal), "reason": each.reason} for each in menu.left_out],
+        "seconds": round(menu.together.seconds, 6),
+    }
+
+
+def human_value(table: HumanTable) -> dict[str, Any]:
+    """Return the value that `compare --human --format json` writes for one goal."""
+    return {
+        "goal": object_to_json(table.goal),
+        "reason": table.reason,
+        "steps": [
+            {
+                "human_steps": count,
+                "success": tree.costs.success if tree else None,
+                "units": len(tree.units) if tree else None,
+                "human": sorted(tree.human) if tree else [],
+                "proven": proven,
+            }
+            for count, (tree, proven) in enumerate(table.trees)
+        ],
     }
 
 

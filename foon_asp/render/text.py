@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 
-from foon_asp.compare import COLUMNS, PAPER_COLUMNS, Row
+from foon_asp.alternatives import Alternatives
+from foon_asp.compare import COLUMNS, PAPER_COLUMNS, HumanTable, Row
+from foon_asp.criteria import Level
 from foon_asp.errors import counted
 from foon_asp.graph import FunctionalUnit, Source
+from foon_asp.menu import Menu
 from foon_asp.problem import Domain
 from foon_asp.retrieve import Retrieval
 from foon_asp.tree import TaskTree
@@ -36,17 +40,12 @@ def _verdict(result: Retrieval) -> str:
         return f"no task tree: {result.reason}"
     if not tree.units:
         return "nothing to do: the kitchen has it"
-    costs = tree.costs
-    parts = [counted(costs.units, "step")]
-    if costs.depth is not None:
-        parts.append(counted(costs.depth, "round"))
-    parts.append(counted(costs.inputs, "input"))
-    if costs.success is not None:
-        parts.append(f"success {costs.success:.3g}")
+    parts = _costs(tree, result.by)
     proof = {"optimal": "proven optimal", "limit": "time limit, not proven"}.get(result.status, "")
+    parts += [f"{paid} by your rules at priority {priority}" for priority, paid in result.own.items()]
     text = ", ".join(parts) + f" ({how}{', ' + proof if proof else ''})"
     for name, value in result.bound.items():
-        word = "at most" if name == "success" else "at least"
+        word = "at most" if Level.parse(name).names == ("success",) else "at least"
         text += f"\nproven so far: {name} {word} {value:.3g}"
     if not tree.executable:
         missing = "; ".join(str(node) for node in tree.replay.missing)
@@ -55,19 +54,155 @@ def _verdict(result: Retrieval) -> str:
     return text
 
 
-def steps_text(tree: TaskTree) -> list[str]:
-    """Write each unit: the motion, what it takes (and from which step), what it makes, where it stands."""
+_UNITS = {
+    "tools": "tool",
+    "dirty": "container",
+    "motions": "motion",
+    "time": "second",
+    "human": "human step",
+}
+"""How criteria are counted that are only shown where they were asked for."""
+
+
+def _costs(tree: TaskTree, by: Iterable[str]) -> list[str]:
+    """Return what a tree costs by the usual criteria and by those that were asked for."""
+    costs = tree.costs
+    parts = [counted(costs.units, "step")]
+    if costs.depth is not None:
+        parts.append(counted(costs.depth, "round"))
+    parts.append(counted(costs.inputs, "input"))
+    if costs.success is not None:
+        parts.append(f"success {costs.success:.3g}")
+    asked = {name for text in by for name in Level.parse(text).names}
+    for name, word in _UNITS.items():
+        if name in asked or (name == "human" and tree.human):
+            parts.append(counted(getattr(costs, name), word))
+    return parts
+
+
+def alternatives_text(result: Alternatives) -> str:
+    """Write several task trees: a line for each, then their steps."""
+    by = ",".join(result.by)
+    lines = [str(result.goal)]
+    count = len(result.trees)
+    if result.status == "unreachable":
+        return "\n".join([*lines, f"no task tree: {result.reason}"]) + "\n"
+    lines.append(_HEADINGS[result.kind].format(trees=counted(count, "task tree"), by=by))
+    if result.status == "limit" and not result.proven:
+        lines[-1] = "the best task tree before the time limit, not proven" if count else "none found in time"
+    elif result.status == "limit":
+        lines[-1] += ", before the time limit; there may be others"
+    elif result.complete:
+        lines[-1] += "; there are no others"
+    elif result.kind == "all optimal":
+        lines[-1] += ", and there are more"
+    shown = result.trees
+    if result.kind == "all optimal" and count > 1:
+        common = frozenset.intersection(*(frozenset(tree.units) for tree in result.trees))
+        lines.append(f"they have {counted(len(common), 'step')} in common; this is one of them:")
+        shown = result.trees[:1]
+    for place, tree in enumerate(shown, 1):
+        head = f"{place}) " if len(shown) > 1 else ""
+        lines += ["", head + (", ".join(_costs(tree, result.by)) if tree.units else "nothing to do")]
+        if place > 1:
+            same = len({*tree.units} & {*result.trees[0].units})
+            lines[-1] += f" ({counted(same, 'step')} as in 1)"
+        lines += steps_text(tree)
+    return "\n".join(lines) + "\n"
+
+
+_HEADINGS = {
+    "best": "the {trees} that are best by {by}, proven",
+    "all optimal": "{trees} optimal by {by}, proven",
+    "diverse": "{trees} as different as possible, the first one optimal by {by}, proven",
+    "pareto": "{trees} that nothing beats by {by} at once, proven",
+}
+
+
+def menu_text(menu: Menu) -> str:
+    """Write what sharing saves, each dish, and the steps for all of them."""
+    lines = []
+    for each in menu.left_out:
+        lines.append(f"left out: {each.goal}: {each.reason}")
+    together = menu.together
+    if together.tree is None:
+        for each in menu.apart:
+            if each.status == "unreachable":
+                lines.append(f"{each.goal}: {each.reason}")
+        lines.append(f"no task tree for all of them together: {together.reason or 'none was found in time'}")
+        return "\n".join(lines) + "\n"
+    costs = together.tree.costs
+    proof = "proven optimal" if together.status == "optimal" else "time limit, not proven"
+    by = ",".join(together.by)
+    lines.append("1 dish" if len(menu.apart) == 1 else f"{len(menu.apart)} dishes")
+    lines.append(f"together: {', '.join(_costs(together.tree, together.by))} (by {by}, {proof})")
+    apart = [each.tree.costs for each in menu.apart if each.tree]
+    if len(apart) == len(menu.apart):
+        units, inputs = sum(each.units for each in apart), sum(each.inputs for each in apart)
+        text = f"apart:    {counted(units, 'step')}, {counted(inputs, 'input')}"
+        chances = [each.success for each in apart if each.success is not None]
+        if len(chances) == len(apart):
+            text += f", success {math.prod(chances):.3g}"
+        lines.append(text)
+        if units > costs.units:
+            lines.append(f"sharing saves {counted(units - costs.units, 'step')}")
+    lines.append("")
+    for place, each in enumerate(menu.apart, 1):
+        alone = counted(each.tree.costs.units, "step") if each.tree else "no tree in time"
+        own = sum(dishes == (each.goal,) for dishes in menu.dishes.values())
+        lines.append(f"{place:3}) {each.goal}\n     {alone} alone; {own} here for it only")
+    lines.append("")
+    numbers = {each.goal: place for place, each in enumerate(menu.apart, 1)}
+    notes = {
+        unit: " for " + ", ".join(str(numbers[dish]) for dish in dishes)
+        for unit, dishes in menu.dishes.items()
+        if dishes
+    }
+    lines += steps_text(together.tree, notes)
+    return "\n".join(lines) + "\n"
+
+
+def human_text(tables: Sequence[HumanTable]) -> str:
+    """Write for each goal the chance of success, the more steps a human does."""
+    columns = max((len(table.trees) for table in tables), default=0)
+    width = min(44, max((len(str(table.goal)) for table in tables), default=4))
+    lines = ["goal".ljust(width) + "".join(f"{count:>9}" for count in range(columns)) if columns else "goal"]
+    for table in tables:
+        name = str(table.goal)
+        cut = name if len(name) <= width else name[: width - 1] + "…"
+        if not table.trees:
+            lines.append(f"{cut:{width}}  -  {table.reason}")
+            continue
+        cells = [_chance(tree, proven) for tree, proven in table.trees]
+        lines.append(f"{cut:{width}}" + "".join(f"{cell:>9}" for cell in cells))
+    lines += ["", "highest chance of success with at most so many steps done by a human; ? not proven"]
+    return "\n".join(lines) + "\n"
+
+
+def _chance(tree: TaskTree | None, proven: bool) -> str:
+    if tree is None or tree.costs.success is None:
+        return "?"
+    return f"{tree.costs.success:.2g}{'' if proven else '?'}"
+
+
+def steps_text(tree: TaskTree, notes: Mapping[int, str] | None = None) -> list[str]:
+    """Write each unit: the motion, what it takes (and from which step), what it makes, where it stands.
+
+    `notes` are written behind the motions of some units.
+    """
     maker: dict[int, int] = {}
     lines: list[str] = []
     for place, unit in enumerate(tree.steps, 1):
-        lines += _step(tree.domain, unit, place, maker)
+        head, *rest = _step(tree, unit, place, maker)
+        lines += [head + (notes or {}).get(unit.id, ""), *rest]
         for thing in tree.domain.reading.makes[unit.id]:
             if thing not in tree.domain.stock:
                 maker.setdefault(thing, place)
     return lines
 
 
-def _step(domain: Domain, unit: FunctionalUnit, place: int, maker: dict[int, int]) -> list[str]:
+def _step(tree: TaskTree, unit: FunctionalUnit, place: int, maker: dict[int, int]) -> list[str]:
+    domain = tree.domain
     foon = domain.foon
     things: list[str] = []
     tools: list[str] = []
@@ -76,9 +211,8 @@ def _step(domain: Domain, unit: FunctionalUnit, place: int, maker: dict[int, int
         name = str(node) + (f" (step {maker[number]})" if number in maker else "")
         (tools if node.bare else things).append(name)
     makes = [str(foon.objects[number]) for number in domain.reading.makes[unit.id]]
-    head = f"{place:3}. {unit.motion}"
-    if unit.source.file:
-        head += f"  [{short_source(unit.source)}]"
+    head = f"{place:3}. {unit.motion}" + (" (human)" if unit.id in tree.human else "")
+    head += f"  [{short_source(unit.source)}, unit {unit.id}]" if unit.source.file else f"  [unit {unit.id}]"
     lines = [head]
     lines += _listed("take", things)
     lines += _listed("with", tools)
