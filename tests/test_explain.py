@@ -637,6 +637,23 @@ def test_text_of_a_step_that_cannot_be_spared() -> None:
     )
 
 
+def test_the_examples_of_the_docs_are_real(built_in: Dataset, universal: Dataset) -> None:
+    poor = kitchen_without(built_in, "feta cheese", "mixing bowl")
+    salad = find_goal(poor, "greek salad", built_in.goals)
+    cream = built_in.goals[0]
+    rice = next(goal for goal in universal.goals if goal.label == "fried rice")
+    texts = [
+        explanation_text(explain(poor, salad)),
+        explanation_text(explain(built_in.domain(), cream, step=48, instead=True)),
+        explanation_text(explain(universal.domain(), rice)),
+    ]
+    real = {line for text in texts for line in text.splitlines()}
+    page = (ROOT / "docs" / "explain.md").read_text(encoding="utf-8")
+    shown = [line[4:] for line in page.split("## In Python")[0].splitlines() if line.startswith("    ")]
+    assert len(shown) > 20
+    assert {line for line in shown if line != "…" and not line.startswith("$")} <= real
+
+
 # --- JSON -----------------------------------------------------------------------------------------
 
 SCHEMA = json.loads((ROOT / "docs" / "schema" / "explain.schema.json").read_text(encoding="utf-8"))
