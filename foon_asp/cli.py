@@ -17,6 +17,7 @@ from foon_asp import commands
 from foon_asp.commands import BAD_INPUT, FOUND
 from foon_asp.convert import FORMATS
 from foon_asp.criteria import CRITERIA
+from foon_asp.effects import SEMANTICS
 from foon_asp.errors import FoonError, InternalError
 from foon_asp.findings import Severity
 
@@ -142,6 +143,56 @@ def _parser() -> argparse.ArgumentParser:
     query.add_argument("--allow-script", action="store_true", help="let the file run code in #script")
     _format_option(query, "text", "json")
 
+    plan = _command(subparsers, "plan", commands.run_plan, "plan with things being used up, by any engine")
+    plan.add_argument("goal", nargs="+", metavar="GOAL", help=_GOAL_HELP)
+    plan.add_argument(
+        "--engine", default="clingo", metavar="NAME", help="see foon-asp engines (default: clingo)"
+    )
+    _semantics_option(plan)
+    plan.add_argument(
+        "--by", default="units", metavar="C", help="what is cheap: a criterion or a sum like 2*units+tools"
+    )
+    plan.add_argument(
+        "--max-steps", type=_count, metavar="N", help="parallel steps that clingo tries at most"
+    )
+    plan.add_argument("--time-limit", type=_seconds, metavar="S", help="seconds")
+    _format_option(plan, "text", "json", "foon")
+
+    engines = subparsers.add_parser(
+        "engines", help="list planning engines", description="List planning engines and how to install them."
+    )
+    engines.set_defaults(run=commands.run_engines)
+    _format_option(engines, "text", "json")
+
+    pddl = subparsers.add_parser(
+        "pddl",
+        help="write PDDL, read plans",
+        description="Write PDDL, and read plans that were made from it.",
+    )
+    actions = pddl.add_subparsers(dest="action", metavar="ACTION", required=True)
+    export = _command(
+        actions, "export", commands.run_pddl_export, "write a domain, a problem and a map of names"
+    )
+    export.add_argument("goal", nargs="+", metavar="GOAL", help=_GOAL_HELP)
+    export.add_argument("-o", "--output", required=True, metavar="DIR", help="folder for the three files")
+    export.add_argument(
+        "--style",
+        choices=("objects", "lifted"),
+        default="objects",
+        help="objects (default): a fluent for each object, an action for each unit; lifted: typed, readable",
+    )
+    _semantics_option(export)
+    export.add_argument("--by", metavar="C", help="action costs: a criterion or a sum like 2*units+tools")
+    export.add_argument(
+        "--durative", action="store_true", help="durative actions of PDDL 2.1, with annotated times"
+    )
+    export.add_argument("--whole", action="store_true", help="the entire FOON, not sliced to the goals")
+
+    decode = _command(actions, "decode", commands.run_pddl_decode, "read a plan that another planner made")
+    decode.add_argument("plan", metavar="PLAN", help="plan file in the IPC format")
+    decode.add_argument("--names", required=True, metavar="FILE", help="names.json of the export")
+    _format_option(decode, "text", "json", "foon")
+
     facts = _command(subparsers, "facts", commands.run_facts, "print the facts that clingo is given")
     facts.add_argument(
         "goal", nargs="*", metavar="GOAL", help=_GOAL_HELP + "; without one, the facts of the whole FOON"
@@ -258,6 +309,16 @@ def _command(
             help="detail: 1 labels, 2 labels and states, 3 everything (default)",
         )
     return command
+
+
+def _semantics_option(command: _Parser) -> None:
+    command.add_argument(
+        "--semantics",
+        choices=SEMANTICS,
+        default="consume",
+        help="what is used up: add: nothing; transform: what becomes or goes into an output;"
+        " consume: every input that is not an output again (default)",
+    )
 
 
 def _method_options(command: _Parser) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
@@ -29,6 +29,7 @@ from foon_asp.resources import built_in_data, diets
 
 if TYPE_CHECKING:
     from foon_asp.alternatives import Alternatives
+    from foon_asp.plan import Plan
     from foon_asp.retrieve import Retrieval
 
 FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
@@ -433,6 +434,111 @@ def run_compare(options: argparse.Namespace) -> int:
     else:
         sys.stdout.write(comparison_text(rows))
     return LIMIT if any(row.cells["optimal"].proven is False for row in rows) else FOUND
+
+
+def run_plan(options: argparse.Namespace) -> int:
+    """Plan with things being used up."""
+    from foon_asp.effects import Effects
+    from foon_asp.planning import PlanAnswer, plan
+    from foon_asp.render.plan import answer_text, answer_value
+
+    dataset, domain = _open(options)
+    goals = [_find_goal(options, dataset, domain, text) for text in options.goal]
+    answer: PlanAnswer = plan(
+        domain,
+        goals,
+        options.engine,
+        options.semantics,
+        options.by,
+        max_steps=options.max_steps,
+        time_limit=options.time_limit,
+        progress=_progress(options.engine),
+    )
+    effects = Effects(domain, options.semantics)
+    if options.format == "json":
+        sys.stdout.write(dumps(answer_value(answer)))
+    elif options.format == "text":
+        sys.stdout.write(answer_text(answer, effects))
+    elif answer.plan is None:
+        sys.stderr.write(f"foon-asp: no plan: {answer.reason or answer.status}\n")
+    else:
+        _write_plan(answer.plan, f"{answer.engine} {answer.semantics}")
+    return {"optimal": FOUND, "solved": FOUND, "unsolvable": UNREACHABLE, "failed": BAD_INPUT}.get(
+        answer.status, LIMIT
+    )
+
+
+def _progress(engine: str) -> Callable[[float], None] | None:
+    """Return what shows a person that an engine is at work; nothing where nobody looks."""
+    if not sys.stderr.isatty():
+        return None
+
+    def show(seconds: float) -> None:
+        sys.stderr.write(f"\rfoon-asp: {engine} is at work, {seconds:.0f} s\x1b[K\r")
+        sys.stderr.flush()
+
+    return show
+
+
+def _write_plan(plan: Plan, how: str) -> None:
+    from foon_asp.text import write_text
+
+    foon = plan.domain.foon
+    comments = [*(f"Goal:\t{plan.domain.node(goal)}" for goal in plan.goals), f"Plan:\t{how}"]
+    if not plan.executable:
+        comments.append("NOT EXECUTABLE")
+    sys.stdout.write(write_text(foon, [foon.units[unit] for unit in plan.units], comments))
+
+
+def run_engines(options: argparse.Namespace) -> int:
+    """List planning engines."""
+    from foon_asp.engines import ENGINES
+    from foon_asp.render.plan import engines_text, engines_value
+
+    if options.format == "json":
+        sys.stdout.write(dumps(engines_value(ENGINES)))
+    else:
+        sys.stdout.write(engines_text(ENGINES))
+    return FOUND
+
+
+def run_pddl_export(options: argparse.Namespace) -> int:
+    """Write a planning domain, a problem and a map of their names."""
+    from foon_asp.criteria import Level
+    from foon_asp.effects import Effects
+    from foon_asp.pddl import export
+
+    dataset, domain = _open(options)
+    goals = [_find_goal(options, dataset, domain, text) for text in options.goal]
+    problem = Problem(domain, tuple(map(domain.id_of, goals)), whole=options.whole)
+    level = None if options.by is None else Level.parse(options.by)
+    folder = Path(options.output)
+    effects = Effects(domain, options.semantics)
+    written = export(problem, effects, level, options.style, options.durative, folder=folder)
+    actions = counted(len(written.actions), "action")
+    sys.stderr.write(f"foon-asp: {folder}/: domain.pddl, problem.pddl, names.json ({actions})\n")
+    return FOUND
+
+
+def run_pddl_decode(options: argparse.Namespace) -> int:
+    """Read a plan that another planner made from an export."""
+    from foon_asp.effects import Effects
+    from foon_asp.pddl_names import read_names
+    from foon_asp.plan import Plan
+    from foon_asp.plan_file import read_plan
+    from foon_asp.render.plan import plan_text, plan_value
+
+    _, domain = _open(options)
+    names = read_names(Path(options.names), domain)
+    effects = Effects(domain, names.semantics)
+    plan = Plan.of(effects, names.goals, read_plan(Path(options.plan), names))
+    if options.format == "json":
+        sys.stdout.write(dumps(plan_value(plan)))
+    elif options.format == "text":
+        sys.stdout.write(plan_text(plan, effects))
+    else:
+        _write_plan(plan, names.semantics)
+    return FOUND if plan.executable else UNREACHABLE
 
 
 def run_facts(options: argparse.Namespace) -> int:

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
 from foon_asp.constraints import FREE, Constraints
-from foon_asp.decode import column, rows
+from foon_asp.decode import column
 from foon_asp.errors import InternalError, QueryError
 from foon_asp.graph import FunctionalUnit, ObjectNode
 from foon_asp.problem import Domain, Problem
 from foon_asp.program import solver
 from foon_asp.reasons import Circle, Lack, circles, is_raw, unreachable_reason
-from foon_asp.retrieve import Retrieval, check_constraints, check_method, retrieve
+from foon_asp.retrieve import Retrieval, check_constraints, check_method, conflict, retrieve
 from foon_asp.solve import Answer
 from foon_asp.tree import TaskTree
 
@@ -195,7 +195,7 @@ def _without_tree(problem: Problem, reason: str, most: int, time_limit: float | 
     if missing.sets and constraints != FREE:
         stocked = _stocked(domain, missing.sets[0])
         if retrieve(stocked, domain.node(goal), constraints=constraints).status == "unreachable":
-            give_way = must_give_way(stocked.problem([domain.node(goal)], constraints=constraints))
+            give_way = conflict(stocked.problem([domain.node(goal)], constraints=constraints))
     return Explanation(
         domain,
         domain.node(goal),
@@ -223,8 +223,9 @@ def missing_sets(domain: Domain, goal: int, *, most: int = 1, time_limit: float 
     """
     if goal not in domain.reading.makers:
         return MissingSets((), frozenset(), proven=True, complete=True)
+    made = domain.closure.available.keys() - domain.stock.keys()
     # How the kitchen makes what it can make need not be looked at.
-    supplied = _stocked(domain, domain.closure.available)
+    supplied = _stocked(domain, made) if made else domain
     problem = Problem(supplied, (goal,), founded=False)
     control = solver(problem, ["missing.lp"], {})
     deadline = None if time_limit is None else time.monotonic() + time_limit
@@ -278,12 +279,6 @@ def _stocked(domain: Domain, things: Iterable[int]) -> Domain:
     objects = (*domain.kitchen.objects, *map(domain.node, things))
     kitchen = replace(domain.kitchen, objects=objects)
     return Domain(domain.foon, kitchen, strict=domain.strict, level=domain.level)
-
-
-def must_give_way(problem: Problem) -> tuple[str, ...]:
-    """Return the names of the constraints that leave no tree, as few as possible, sorted."""
-    control = solver(problem, ["task_tree.lp", "conflict.lp"], {"founded": int(problem.founded)})
-    return tuple(sorted(str(name) for (name,) in rows(control.best(), "waived")))
 
 
 class Pantry:
@@ -381,7 +376,7 @@ def _with_result(
     goal = domain.node(problem.goals[0])
     if result.status == "unreachable":
         return Explanation(
-            domain, goal, "constrained", result.reason, give_way=must_give_way(problem), retrieval=result
+            domain, goal, "constrained", result.reason, give_way=conflict(problem), retrieval=result
         )
     status = "limit" if result.status == "limit" else "reachable"
     if tree is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import PurePath
 
@@ -56,6 +56,16 @@ def names(problem: Problem) -> str:
     for number in problem.units:
         for source in domain.foon.units[number].annotation.sources:
             lines.append(f"source({number},{quote(PurePath(source.file).name)},{source.line}).")
+    return "\n".join(lines) + "\n"
+
+
+def price_facts(
+    per_unit: Mapping[int, int], fees: Mapping[str, int], once: Mapping[int, Iterable[str]]
+) -> str:
+    """Return what units cost in a plan: prices paid each time, and fees that are paid once for a key."""
+    lines = [f"price({number},{cost})." for number, cost in per_unit.items()]
+    lines += [f"fee({quote(key)},{cost})." for key, cost in fees.items()]
+    lines += [f"once({number},{quote(key)})." for number, keys in once.items() for key in keys]
     return "\n".join(lines) + "\n"
 
 

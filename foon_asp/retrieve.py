@@ -172,7 +172,15 @@ def check_constraints(domain: Domain, method: str, constraints: Constraints) -> 
 
 
 def conflict_reason(problem: Problem) -> str:
-    """Say which constraints must give way for a task tree to exist: the fewest that will do."""
+    """Say which constraints must give way for a task tree to exist."""
+    names = conflict(problem)
+    if not names:
+        return "the rules leave no task tree"
+    return "the constraints leave no task tree; one exists without: " + "; ".join(names)
+
+
+def conflict(problem: Problem) -> tuple[str, ...]:
+    """Return the names of the constraints that must give way, the fewest that will do, sorted."""
     encodings = ["task_tree.lp", "conflict.lp"]
     founded: dict[str, str | int] = {"founded": int(problem.founded)}
     human = ""
@@ -181,10 +189,7 @@ def conflict_reason(problem: Problem) -> str:
         encodings.append("criteria/human.lp")
         human = 'criterion("human",-2).\n'
     control = solver(problem, encodings, founded, extra_facts=human)
-    names = [str(name) for (name,) in rows(control.best(), "waived")]
-    if not names:
-        return "the rules leave no task tree"
-    return "the constraints leave no task tree; one exists without: " + "; ".join(sorted(names))
+    return tuple(sorted(str(name) for (name,) in rows(control.best(), "waived")))
 
 
 class Found(NamedTuple):

@@ -155,7 +155,10 @@ def test_every_fact_that_is_written_belongs_to_the_vocabulary() -> None:
     assert found <= set(signatures(DEFINED, vocabulary))
 
 
-PARTS = {"ids.lp": (("check", 0), ("step", 1), ("check", 1), ("choose", 1))}
+PARTS = {
+    "ids.lp": (("check", 0), ("step", 1), ("check", 1), ("choose", 1)),
+    "plan.lp": (("check", 0), ("step", 1), ("check", 1), ("cheapest", 1)),
+}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -201,8 +201,22 @@ def steps_text(tree: TaskTree, notes: Mapping[int, str] | None = None) -> list[s
     return lines
 
 
-def _step(tree: TaskTree, unit: FunctionalUnit, place: int, maker: dict[int, int]) -> list[str]:
-    domain = tree.domain
+def _step(tree: TaskTree, unit: FunctionalUnit, place: int, maker: Mapping[int, int]) -> list[str]:
+    return step_lines(tree.domain, unit, place, maker, " (human)" if unit.id in tree.human else "")
+
+
+def step_lines(
+    domain: Domain,
+    unit: FunctionalUnit,
+    place: int,
+    maker: Mapping[int, int],
+    note: str = "",
+    used_up: Iterable[int] = (),
+) -> list[str]:
+    """Write one unit as the step at a place; `maker` are the places of the steps that made what there is.
+
+    `note` is written behind the motion; `used_up` are objects that are not there afterwards.
+    """
     foon = domain.foon
     things: list[str] = []
     tools: list[str] = []
@@ -211,12 +225,13 @@ def _step(tree: TaskTree, unit: FunctionalUnit, place: int, maker: dict[int, int
         name = str(node) + (f" (step {maker[number]})" if number in maker else "")
         (tools if node.bare else things).append(name)
     makes = [str(foon.objects[number]) for number in domain.reading.makes[unit.id]]
-    head = f"{place:3}. {unit.motion}" + (" (human)" if unit.id in tree.human else "")
+    head = f"{place:3}. {unit.motion}{note}"
     head += f"  [{short_source(unit.source)}, unit {unit.id}]" if unit.source.file else f"  [unit {unit.id}]"
     lines = [head]
     lines += _listed("take", things)
     lines += _listed("with", tools)
     lines += _listed("get", makes)
+    lines += _listed("gone", [str(foon.objects[number]) for number in used_up])
     return lines
 
 
