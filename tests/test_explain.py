@@ -27,7 +27,6 @@ from foon_asp.explain import (
     explain_steps,
     first_sentence,
     missing_sets,
-    must_give_way,
     shrunk,
     without_unit,
 )
@@ -37,7 +36,7 @@ from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain, Problem
 from foon_asp.reasons import Lack, circles, essential
 from foon_asp.render.explain import explanation_text, explanation_value, reason_text
-from foon_asp.retrieve import retrieve
+from foon_asp.retrieve import conflict, retrieve
 
 Cost = tuple[int, int, int, int]
 
@@ -367,7 +366,7 @@ def test_depth_and_number_can_be_what_must_give_way(where: Domain) -> None:
         found = explain(where, goal, constraints=held)
         assert (found.status, found.give_way) == ("constrained", ("at most 0 rounds",))
         both = Constraints(max_depth=0, max_units=0)
-        assert must_give_way(where.problem([goal], constraints=both)) == (
+        assert conflict(where.problem([goal], constraints=both)) == (
             "at most 0 rounds",
             "at most 0 units",
         )
