@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo test bench clean
+.PHONY: demo test bench planning clean
 
 # Show the main job on the built-in data.
 demo: .venv/ready
@@ -22,6 +22,10 @@ test: .venv/ready
 # Measure; see benchmarks/README.md.
 bench: .venv/ready
 	$(BIN)/python benchmarks/retrieval.py
+
+# Plan every public goal by several engines; prints the tables of docs/planning.md.
+planning: .venv/ready
+	$(BIN)/python benchmarks/planning.py
 
 clean:
 	rm -rf .venv build *.egg-info

@@ -19,6 +19,14 @@ from foon_asp.solve import Answer, Solver
 from foon_asp.state_syntax import clean
 from foon_asp.tree import TaskTree
 
+_BATCH = 300
+"""How many units are grounded at once, unless one dish takes more: fewer are ground too often, and among
+more the solver gets slow."""
+
+_PATIENCE = 1.0
+"""How many seconds a dish has in a batch. Core-guided optimisation takes long where luck is bad, so what is
+not solved by then is asked again alone."""
+
 
 @dataclass(frozen=True, slots=True)
 class Suggestion:
@@ -202,43 +210,72 @@ class _Search:
         return Problem(self.domain, dishes, constraints=self.constraints)
 
     def answers(self, dishes: Sequence[int]) -> Iterator[tuple[int, Answer]]:
-        """Yield for each dish the best trees that use all labels; not proven if the time ran out."""
+        """Yield for each dish the best tree that uses all labels; not proven if the time ran out."""
         names = {name for level in self.levels for name in level.names}
+        alone: list[int] = []
         if "depth" in names or self.constraints.max_depth is not None:
-            # Rounds are told apart for every object: small programs are quicker.
-            return self._one_by_one(dishes)
-        return self._all_together(dishes)
+            # Rounds are told apart for every object: the smallest programs are the quickest.
+            alone += dishes
+        else:
+            for batch in self._batches(dishes):
+                for dish, answer in self._together(batch):
+                    if answer.proven:
+                        yield dish, answer
+                    else:
+                        alone.append(dish)
+        for dish in alone:
+            yield dish, self._alone(dish)
 
-    def _one_by_one(self, dishes: Iterable[int]) -> Iterator[tuple[int, Answer]]:
-        for dish in dishes:
-            if self.deadline is not None and time.monotonic() >= self.deadline:
-                yield dish, Answer(None, False)
-                continue
-            for control in self._optimisers(self.problem(dish)):
-                answer = self._best(control)
-                if not too_deep(answer):
-                    break
-            yield dish, answer
+    def _batches(self, dishes: Iterable[int]) -> Iterator[list[int]]:
+        """Yield dishes that mostly need the same units, together."""
+        slices = {dish: self.problem(dish).units for dish in dishes}
+        batch: list[int] = []
+        units: set[int] = set()
+        for dish in sorted(slices, key=slices.__getitem__):
+            if batch and len(units.union(slices[dish])) > _BATCH:
+                yield batch
+                batch, units = [], set()
+            batch.append(dish)
+            units.update(slices[dish])
+        if batch:
+            yield batch
 
-    def _all_together(self, dishes: Sequence[int]) -> Iterator[tuple[int, Answer]]:
-        """Ground once what can matter for any of the dishes, and then ask for one after the other."""
+    def _together(self, dishes: Sequence[int]) -> Iterator[tuple[int, Answer]]:
+        """Ground once what can matter for any of some dishes, and ask for one after the other."""
+        if self._late():
+            yield from ((dish, Answer(None, False)) for dish in dishes)
+            return
         all_goals, no_goal = self.problem(*dishes), self.problem()
         no_goal.units, no_goal.objects = all_goals.units, all_goals.objects
         control = next(self._optimisers(no_goal, "".join(f"#external goal({dish}).\n" for dish in dishes)))
         for dish in dishes:
             control.switch("goal", dish, True)
-            yield dish, self._best(control)
+            patience = time.monotonic() + _PATIENCE
+            yield (
+                dish,
+                self._best(control, patience if self.deadline is None else min(patience, self.deadline)),
+            )
             control.switch("goal", dish, False)
 
-    def _best(self, control: Solver) -> Answer:
+    def _alone(self, dish: int) -> Answer:
+        answer = Answer(None, False)
+        if not self._late():
+            for control in self._optimisers(self.problem(dish)):
+                answer = self._best(control, self.deadline)
+                if not too_deep(answer):
+                    break
+        return answer
+
+    def _late(self) -> bool:
+        return self.deadline is not None and time.monotonic() >= self.deadline
+
+    def _best(self, control: Solver, deadline: float | None) -> Answer:
         """Return the best answer; whether there is one at all is quick to know if nothing is optimised."""
-        if self.deadline is not None and time.monotonic() >= self.deadline:
-            return Answer(None, False)
-        if self.using or self.constraints != FREE:
+        if not self._late() and (self.using or self.constraints != FREE):
             first = control.first()
             if first.atoms is None:
                 return first
-        return control.best(self.deadline)
+        return control.best(deadline)
 
     def _optimisers(self, problem: Problem, extra_facts: str = "") -> Iterator[Solver]:
         encodings = ("suggest.lp",) if self.using else ("task_tree.lp",)

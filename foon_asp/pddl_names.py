@@ -1,0 +1,212 @@
+"""Names that PDDL takes, one for each thing, whatever its label holds; and the file that maps them back."""
+
+from __future__ import annotations
+
+import json
+import re
+import unicodedata
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path, PurePath
+from typing import Any
+
+from foon_asp.effects import SEMANTICS
+from foon_asp.errors import InputError
+from foon_asp.files import parse_json, read_string
+from foon_asp.problem import Domain
+
+VERSION = 1
+"""The layout of names.json; it goes up when a reader of the old one would misread the new one."""
+
+_FORMAT = "foon-asp pddl names"
+_LONGEST = 60
+_NO_NAME_CHARACTER = re.compile(r"[^a-z0-9]+")
+_SUPPORTED = re.compile(r"[a-z][a-z0-9-]*")
+
+_WORDS = (
+    "action action-costs adl all always always-within and assign at at-end at-most-once at-start axiom "
+    "condition conditional-effects constants constraints contingent continuous-effects decrease define "
+    "derived derived-predicates disjunctive-preconditions domain duration durative-action durative- "
+    "actions effect either end equality event exists existential-preconditions false fluents forall "
+    "functions goal hold-after hold-during imply increase init is-violated maximize method metric "
+    "minimize negative-preconditions not number numeric-fluents object objects oneof or over parameters "
+    "precondition predicates preference preferences probabilistic problem process quantified- "
+    "preconditions requirements reward scale-down scale-up sometime sometime-after sometime-before "
+    "start strips task time timed-initial-effects timed-initial-literals total-cost total-time true "
+    "types typing undefined unknown universal-preconditions when within "
+)
+
+RESERVED = frozenset(_WORDS.split())
+"""Words that some reader of PDDL gives a meaning of its own."""
+
+
+def plain(text: str, otherwise: str = "thing") -> str:
+    """Return a text as a PDDL name: lower case, accents dropped, `-` for all that no name may hold.
+
+    Long texts are cut between words. Not one-to-one: `Namer` sees to that.
+    """
+    folded = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().lower()
+    name = _NO_NAME_CHARACTER.sub("-", folded).strip("-")
+    if len(name) > _LONGEST:
+        name = name[: _LONGEST + 1].rpartition("-")[0] or name[:_LONGEST]
+    if not name:
+        return otherwise
+    return name if name[0].isalpha() else f"{otherwise}-{name}"
+
+
+class Namer:
+    """Gives out names, each once, over all kinds of things: some readers have one name space for all."""
+
+    def __init__(self) -> None:
+        self._taken = set(RESERVED)
+        self._next: dict[str, int] = {}
+
+    def name(self, text: str, otherwise: str = "thing") -> str:
+        """Return a new name that reads like the text; the second one like it ends in `-2`."""
+        base = name = plain(text, otherwise)
+        while name in self._taken:
+            count = self._next.get(base, 2)
+            self._next[base] = count + 1
+            name = f"{base}-{count}"
+        self._taken.add(name)
+        return name
+
+    def copy(self) -> Namer:
+        """Return a namer that goes on from here, and leaves this one as it is."""
+        other = Namer()
+        other._taken, other._next = set(self._taken), dict(self._next)
+        return other
+
+    def free(self, *texts: str) -> str:
+        """Return the first of some texts that is still free as a name, or a name that reads like the last."""
+        for text in texts:
+            if (name := plain(text)) not in self._taken:
+                self._taken.add(name)
+                return name
+        return self.name(texts[-1])
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """What the names of an export stand for.
+
+    `objects`: name to object id. `units`: action to unit id; several actions may stand for one unit.
+    `helpers`: actions that stand for no unit, as taking a bowl out, to what they do in words. `goals` are the
+    objects that were wanted, and `semantics` says what is used up.
+    """
+
+    objects: Mapping[str, int]
+    units: Mapping[str, int]
+    helpers: Mapping[str, str] = field(default_factory=dict)
+    goals: tuple[int, ...] = ()
+    semantics: str = "add"
+
+    def unit_of(self, action: str) -> int | None:
+        """Return the unit that an action stands for, None for a helper; raise `KeyError` if unknown."""
+        return None if action in self.helpers else self.units[action]
+
+
+class DomainNames:
+    """Names of all objects and units of a domain; the same for every goal, style and semantics.
+
+    An action is named by its motion and the id of its unit, an object by how people write it. Names that
+    an export needs beside these come from `namer`, last, so that they change none of the others.
+    """
+
+    def __init__(self, domain: Domain) -> None:
+        self.namer = Namer()
+        count = len(domain.foon.objects) + len(domain.strangers)
+        self.objects = [
+            self.namer.name(str(domain.node(thing)).replace("*", " star "), "thing") for thing in range(count)
+        ]
+        self.units = [
+            self.namer.name(f"{plain(unit.motion, 'do')[: _LONGEST - 8]}-{unit.id}", "do")
+            for unit in domain.foon.units
+        ]
+
+
+def place(domain: Domain, unit: int) -> str:
+    """Return the file, without its folders, and the line where a unit was read; empty if unknown."""
+    source = domain.foon.units[unit].source
+    return f"{PurePath(source.file).name}:{source.line}" if source.line else PurePath(source.file).name
+
+
+def names_text(names: Names, domain: Domain, about: Mapping[str, str | bool]) -> str:
+    """Write names.json: what each name stands for, by id and in words, sorted as they were given."""
+    data = {
+        "format": _FORMAT,
+        "version": VERSION,
+        **about,
+        "semantics": names.semantics,
+        "goals": [{"id": goal, "text": str(domain.node(goal))} for goal in names.goals],
+        "objects": {
+            name: {"id": thing, "text": str(domain.node(thing))} for name, thing in names.objects.items()
+        },
+        "actions": {
+            name: {
+                "unit": unit,
+                "motion": domain.foon.units[unit].motion,
+                "source": place(domain, unit),
+            }
+            for name, unit in names.units.items()
+        },
+        "helpers": dict(names.helpers),
+    }
+    return json.dumps(data, indent=1, ensure_ascii=False) + "\n"
+
+
+def read_names(path: Path, domain: Domain) -> Names:
+    """Read names.json; raise `InputError` if it is none, or was written for another FOON or kitchen."""
+    data = parse_json(read_string(path), path)
+    if not isinstance(data, dict) or data.get("format") != _FORMAT:
+        raise InputError(path, None, "these are no names of a PDDL export", "name the names.json of one")
+    if data.get("version") != VERSION:
+        problem = f"version {data.get('version')!r}, but this program reads version {VERSION}"
+        raise InputError(path, None, problem, "export again")
+    try:
+        objects = {name: _object_id(item, domain) for name, item in _items(data, "objects")}
+        units = {name: _unit_id(item, domain) for name, item in _items(data, "actions")}
+        helpers = {name: _text(words) for name, words in _items(data, "helpers")}
+        goals = tuple(_object_id(item, domain) for item in data["goals"])
+        semantics = _text(data["semantics"])
+        if semantics not in SEMANTICS:
+            raise ValueError(f"the semantics {semantics!r} is unknown")
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(path, None, f"not readable as names: {error}", "export again") from None
+    return Names(objects, units, helpers, goals, semantics)
+
+
+def _items(data: dict[str, Any], key: str) -> list[tuple[str, Any]]:
+    table = data[key]
+    if not isinstance(table, dict):
+        raise TypeError(f"{key!r} is no object")
+    for name in table:
+        if not _SUPPORTED.fullmatch(name):
+            raise ValueError(f"{name!r} is no name that an export has")
+    return list(table.items())
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{value!r} is no text")
+    return value
+
+
+def _number(value: object, below: int) -> int:
+    if type(value) is not int or not 0 <= value < below:
+        raise ValueError(f"the id {value!r} is not of this FOON")
+    return value
+
+
+def _object_id(item: Any, domain: Domain) -> int:
+    thing = _number(item["id"], len(domain.foon.objects) + len(domain.strangers))
+    if item["text"] != str(domain.node(thing)):
+        raise ValueError(f"object {thing} is {str(domain.node(thing))!r} here, not {item['text']!r}")
+    return thing
+
+
+def _unit_id(item: Any, domain: Domain) -> int:
+    unit = _number(item["unit"], len(domain.foon.units))
+    if item["motion"] != domain.foon.units[unit].motion:
+        raise ValueError(f"unit {unit} is {domain.foon.units[unit].motion!r} here, not {item['motion']!r}")
+    return unit
