@@ -1,7 +1,7 @@
 """Writing PDDL: the text of a domain and of a problem, laid out to be read.
 
 unified-planning has a writer of its own. It knows no comments, puts each precondition on one line however
-long, and looks every name up among all others, so that its time grows with the square of the domain.
+long, and needs the problem as an object of unified-planning first, which takes longer than the writing.
 """
 
 from __future__ import annotations
