@@ -6,12 +6,14 @@ With `pddl.py` the only importer of unified_planning, and like there it is impor
 from __future__ import annotations
 
 import multiprocessing
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass
 from importlib.util import find_spec
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from foon_asp.criteria import Level
@@ -31,7 +33,8 @@ if TYPE_CHECKING:
 class Engine:
     """A planner: what it promises, its licence, and the package that brings it along.
 
-    `module` is what shows that it is installed, `up_name` is what unified_planning calls it.
+    `module` is what shows that it is installed, `up_name` is what unified_planning calls it, made with
+    `options`. `optimal` says that a plan of it is a cheapest one, though unified_planning may not know that.
     """
 
     name: str
@@ -40,6 +43,8 @@ class Engine:
     promises: str
     module: str = ""
     up_name: str = ""
+    options: tuple[tuple[str, str | tuple[str, ...]], ...] = ()
+    optimal: bool = False
 
     @property
     def installed(self) -> bool:
@@ -52,6 +57,12 @@ class Engine:
 
 
 _FD = ("up-fast-downward", "GPL-3.0")
+# A unit may take away what it does not need. With the usual invariants, the translator of Fast Downward makes
+# a conditional effect of that, and LM-cut knows none.
+_LMCUT = (
+    ("fast_downward_search_config", "astar(lmcut())"),
+    ("fast_downward_translate_options", ("--invariant-generation-max-candidates", "0")),
+)
 
 ENGINES = (
     Engine("clingo", "foon-asp", "MIT", "fewest parallel steps, then cheapest, proven"),
@@ -61,7 +72,9 @@ ENGINES = (
         *_FD,
         "a cheapest plan, proven (A* with LM-cut)",
         "up_fast_downward",
-        "fast-downward-opt",
+        "fast-downward",
+        _LMCUT,
+        optimal=True,
     ),
     Engine("pyperplan", "up-pyperplan", "GPL-3.0", "a plan; knows no costs", "up_pyperplan", "pyperplan"),
     Engine("enhsp", "up-enhsp", "GPL-3.0", "a plan; needs Java", "up_enhsp", "enhsp"),
@@ -160,7 +173,20 @@ def _in_process(
     method = "fork" if "fork" in multiprocessing.get_all_start_methods() else "spawn"
     context: Any = multiprocessing.get_context(method)
     here, there = context.Pipe(duplex=False)
-    process = context.Process(target=_solve, args=(there, problem, engine), daemon=True)
+    # Engines leave files where they run, all under the same names: each gets a folder of its own.
+    with TemporaryDirectory(prefix="foon-asp-") as folder:
+        process = context.Process(target=_solve, args=(there, problem, engine, folder), daemon=True)
+        return _await(process, here, there, engine, time_limit, progress)
+
+
+def _await(
+    process: Any,
+    here: Connection,
+    there: Connection,
+    engine: Engine,
+    time_limit: float | None,
+    progress: Callable[[float], None] | None,
+) -> Said:
     begun = time.monotonic()
     process.start()
     there.close()
@@ -195,8 +221,9 @@ def _end(pid: int) -> None:
                 each.kill()
 
 
-def _solve(there: Connection, problem: Any, engine: Engine) -> None:
+def _solve(there: Connection, problem: Any, engine: Engine, folder: str) -> None:
     """Solve, in the process of the engine, and send what came of it."""
+    os.chdir(folder)
     from unified_planning.engines import PlanGenerationResultStatus as Status
 
     words = {
@@ -211,13 +238,16 @@ def _solve(there: Connection, problem: Any, engine: Engine) -> None:
     try:
         with _quiet():
             factory = problem.environment.factory
-            with factory.OneshotPlanner(name=engine.up_name) as planner:
+            params = {name: list(v) if isinstance(v, tuple) else v for name, v in engine.options}
+            with factory.OneshotPlanner(name=engine.up_name, params=params) as planner:
                 result = planner.solve(problem)
     except Exception as error:
         there.send(("failed", None, f"{type(error).__name__}: {' '.join(str(error).split())}"))
         return
     names = None if result.plan is None else [each.action.name for each in result.plan.actions]
     kind = words.get(result.status, "failed")
+    if kind == "solved" and engine.optimal:
+        kind = "optimal"
     message = "" if kind not in ("failed", "gave up") else _last_words(result)
     there.send((kind, names, message))
 

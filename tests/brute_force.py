@@ -74,7 +74,7 @@ def sums(domain: Domain, units: Iterable[int]) -> Costs:
     listed = [domain.foon.objects[o] for unit in used for o in (*unit.inputs, *unit.outputs)]
     states = [(thing, state) for thing in listed for state in thing.states]
     handled = {thing.label for thing in listed} | {state.relatum for _, state in states if state.relatum}
-    holding = {thing.label for thing, state in states if state.contents}
+    holding = {thing.label for thing, state in states if state.name == "contains" and state.contents}
     holding |= {state.relatum for _, state in states if state.name == "in" and state.relatum}
     return {
         "units": len(used),

@@ -87,7 +87,7 @@ OBJECTIVES = {
     "inputs": 'penalty("mine",(U,O),1) :- use(U), input(U,O).',
     "success": 'penalty("mine",U,C) :- use(U), success_rate(U,R), failure_cost(R,C).',
     "tools": 'penalty("mine",L,1) :- use(U), handles(U,L), utensil(L).',
-    "dirty": 'penalty("mine",L,1) :- use(U), lists(U,O), label(O,L), content(O,_,_), utensil(L).'
+    "dirty": 'penalty("mine",L,1) :- use(U), lists(U,O), label(O,L), content(O,"contains",_), utensil(L).'
     'penalty("mine",L,1) :- use(U), lists(U,O), relation(O,"in",L), utensil(L).',
     "motions": 'penalty("mine",M,1) :- use(U), motion(U,M).',
 }

@@ -51,6 +51,22 @@ def test_the_optimum_of_fast_downward_is_ours(by: str, query: tuple[Domain, Obje
         assert mine.plan.makespan <= theirs.plan.makespan
 
 
+@pytest.mark.parametrize("semantics", SEMANTICS[1:])
+@many(10)
+@given(query=queries())
+def test_no_plan_is_cheaper_than_the_proven_one(semantics: str, query: tuple[Domain, ObjectNode]) -> None:
+    need("fast-downward-opt")
+    where, goal = query
+    theirs = plan(where, [goal], "fast-downward-opt", semantics)
+    ours = plan(where, [goal], "clingo", semantics)
+    assert theirs.status in ("optimal", "unsolvable")
+    assert (theirs.plan is None) == (ours.plan is None)
+    if theirs.plan is not None and ours.plan is not None:
+        # One is cheapest, the other takes the fewest parallel steps.
+        assert len(theirs.plan.units) <= len(ours.plan.units)
+        assert ours.plan.makespan <= theirs.plan.makespan
+
+
 @pytest.mark.parametrize("semantics", SEMANTICS)
 @pytest.mark.parametrize("name", ["fast-downward", "pyperplan"])
 def test_plans_for_the_built_in_goals_are_found(built_in: Dataset, name: str, semantics: str) -> None:
