@@ -106,6 +106,8 @@ class Solver:
 
         It ends early at the deadline, and once there are `most` models.
         """
+        if deadline is not None and time.monotonic() >= deadline:
+            return Answers((), False)
         configuration: Any = self._control.configuration
         configuration.solve.opt_mode, configuration.solve.models = "optN", 0
         configuration.solve.project = "show"

@@ -20,8 +20,8 @@ from foon_asp.state_syntax import clean
 from foon_asp.tree import TaskTree
 
 _BATCH = 300
-"""How many units are grounded at once, unless one dish takes more: fewer are ground too often, and among
-more the solver gets slow."""
+"""How many units are grounded at once, unless one dish needs about as many: fewer are grounded too often,
+and among more the solver gets slow."""
 
 _PATIENCE = 1.0
 """How many seconds a dish has in a batch. Core-guided optimisation takes long where luck is bad, so what is
@@ -231,10 +231,13 @@ class _Search:
         slices = {dish: self.problem(dish).units for dish in dishes}
         batch: list[int] = []
         units: set[int] = set()
+        room = 0
         for dish in sorted(slices, key=slices.__getitem__):
-            if batch and len(units.union(slices[dish])) > _BATCH:
-                yield batch
+            if len(units.union(slices[dish])) > room:
+                if batch:
+                    yield batch
                 batch, units = [], set()
+                room = max(_BATCH, 5 * len(slices[dish]) // 4)
             batch.append(dish)
             units.update(slices[dish])
         if batch:

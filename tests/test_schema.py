@@ -43,6 +43,7 @@ METHODS = [
     ["--reference"],
     ["--method", "greedy", "--reference"],
     ["--method", "first", "--reference"],
+    ["--method", "ids", "--trace"],
 ]
 
 

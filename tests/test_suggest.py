@@ -310,7 +310,7 @@ QUESTIONS = [("units",), ("success",), ("inputs", "units"), ("depth", "units"), 
 
 
 @pytest.mark.parametrize("by", QUESTIONS, ids=",".join)
-@many(100)
+@many(60)
 @given(where=domains(), data=st.data())
 def test_best_by_brute_force(by: tuple[str, ...], where: Domain, data: st.DataObject) -> None:
     """The best tree that really uses something is the best small one that uses it."""
@@ -442,9 +442,7 @@ def test_built_in_dishes_with_egg(built_in: Dataset) -> None:
         (25, "apple pie [baked] in [pie dish]"),
         (27, "fried rice [hot] on [plate]"),
     ]
-    assert all(
-        goal in {each.dish for each in suggest(where, built_in.goals).dishes} for goal in built_in.goals
-    )
+    assert {each.dish for each in suggest(where, built_in.goals).dishes} >= set(built_in.goals)
 
 
 def really_used(where: Domain, result: Suggestions) -> bool:
@@ -475,7 +473,7 @@ def test_universal_dishes(universal: Dataset, universal_domain: Domain) -> None:
 
 def test_universal_dishes_by_success(universal: Dataset, universal_domain: Domain) -> None:
     """Core-guided optimisation of some of these takes very long, unless encoding and program help it."""
-    for using, count in ((["garlic"], 76), (["butter", "milk"], 43)):
+    for using, count in ((["garlic"], 76), (["butter", "milk"], 43), (["egg"], 100)):
         result = suggest(universal_domain, universal.goals, "success", using=using, time_limit=60)
         assert (len(result.dishes), result.skipped) == (count, 0)
         assert really_used(universal_domain, result)
