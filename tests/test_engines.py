@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
+from conftest import ROOT
 from hypothesis import given
 from hypothesis import strategies as st
+from jsonschema import Draft202012Validator, ValidationError
 from small_foons import domain, many, node, queries
 from test_cli import run, run_json
 
@@ -167,6 +170,29 @@ def test_a_plan_made_elsewhere_is_decoded(capsys: pytest.CaptureFixture[str], tm
     status, _, err = run(capsys, "pddl", "decode", path, "--names", tmp_path / "names.json")
     assert status == 2
     assert ":3: unknown action 'boil-999'" in err
+
+
+def validate(name: str, value: object) -> None:
+    schema = json.loads((ROOT / "docs" / "schema" / name).read_text(encoding="utf-8"))
+    Draft202012Validator(schema).validate(value)
+
+
+def test_what_is_printed_as_json_is_specified(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    made = run_json(capsys, "plan", "whipped cream", "--by", "success")
+    validate("plan.schema.json", made)
+    for spoilt in (
+        made | {"status": "fine"},
+        made | {"more": 1},
+        {k: v for k, v in made.items() if k != "plan"},
+    ):
+        with pytest.raises(ValidationError):
+            validate("plan.schema.json", spoilt)
+    assert run(capsys, "plan", "hummus", "--max-steps", "1", "--format", "json")[0] == 3
+    validate("engines.schema.json", run_json(capsys, "engines"))
+    run(capsys, "pddl", "export", "ice", "-o", tmp_path)
+    (tmp_path / "plan").write_text("(crank-59)\n")
+    names = tmp_path / "names.json"
+    validate("decode.schema.json", run_json(capsys, "pddl", "decode", tmp_path / "plan", "--names", names))
 
 
 def test_the_engines_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
