@@ -7,12 +7,15 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import shutil
+import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass
 from importlib.util import find_spec
+from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +25,7 @@ from foon_asp.errors import InternalError, QueryError, closest
 from foon_asp.pddl import from_unified_plan, unified
 from foon_asp.pddl_document import document
 from foon_asp.pddl_task import planning_task
+from foon_asp.pddl_text import domain_text, problem_text
 from foon_asp.plan import Plan
 from foon_asp.problem import Problem
 
@@ -136,7 +140,8 @@ def run_engine(
     its replay or unified_planning's validator.
     """
     started = time.perf_counter()
-    target = unified(document(planning_task(problem, effects, level)))
+    written = document(planning_task(problem, effects, level))
+    target = unified(written)
     kind, found, message = _in_process(target.problem, engine, time_limit, progress)
     plan = None
     if found is not None:
@@ -149,6 +154,8 @@ def run_engine(
             lacking = ", ".join(map(str, plan.replay.missing))
             raise InternalError(f"the plan of {engine.name} fails its replay: {lacking} is missing")
         _validate(target.problem, sequence)
+        if (val := find_val()) is not None:
+            check_by_val(val, domain_text(written), problem_text(written), found)
     return EngineAnswer(engine.name, kind, plan, message, time.perf_counter() - started)
 
 
@@ -159,6 +166,30 @@ def _validate(problem: Any, plan: Any) -> None:
         result = SequentialPlanValidator().validate(problem, plan)
     if result.status is not ValidationResultStatus.VALID:
         raise InternalError("unified_planning's validator does not accept a plan that replays")
+
+
+def find_val() -> str | None:
+    """Return the program of VAL, the validator of the planning competitions, if it is installed."""
+    return next(filter(None, map(shutil.which, ("Validate", "VAL"))), None)
+
+
+def check_by_val(val: str, domain: str, problem: str, actions: Iterable[str]) -> None:
+    """Let VAL check a plan; raise `InternalError` if it does not accept it."""
+    with TemporaryDirectory(prefix="foon-asp-") as name:
+        folder = Path(name)
+        (folder / "domain.pddl").write_text(domain, encoding="utf-8")
+        (folder / "problem.pddl").write_text(problem, encoding="utf-8")
+        (folder / "plan").write_text("".join(f"({action})\n" for action in actions), encoding="utf-8")
+        done = subprocess.run(
+            [val, "domain.pddl", "problem.pddl", "plan"],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+    if "Plan valid" not in done.stdout:
+        words = " ".join(done.stdout.split()) or f"exit status {done.returncode}"
+        raise InternalError(f"VAL does not accept a plan that replays: {words}")
 
 
 Said = tuple[str, "list[str] | None", str]

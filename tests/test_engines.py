@@ -15,9 +15,12 @@ from test_cli import run, run_json
 
 from foon_asp.dataset import Dataset
 from foon_asp.effects import SEMANTICS, Effects
-from foon_asp.engines import ENGINES, Engine, find_engine, run_engine
-from foon_asp.errors import QueryError
+from foon_asp.engines import ENGINES, Engine, check_by_val, find_engine, find_val, run_engine
+from foon_asp.errors import InternalError, QueryError
 from foon_asp.graph import ObjectNode
+from foon_asp.pddl_document import document
+from foon_asp.pddl_task import planning_task
+from foon_asp.pddl_text import domain_text, problem_text
 from foon_asp.planning import plan
 from foon_asp.problem import Domain
 from foon_asp.retrieve import retrieve
@@ -193,6 +196,19 @@ def test_what_is_printed_as_json_is_specified(capsys: pytest.CaptureFixture[str]
     (tmp_path / "plan").write_text("(crank-59)\n")
     names = tmp_path / "names.json"
     validate("decode.schema.json", run_json(capsys, "pddl", "decode", tmp_path / "plan", "--names", names))
+
+
+def test_val_accepts_plans_and_refuses_others() -> None:
+    val = find_val()
+    if val is None:
+        pytest.skip("VAL is not installed")
+    where = domain(["egg -boil-> egg[hot]", "egg[hot] -peel-> dish"], "egg")
+    task = planning_task(where.problem([node("dish")]), Effects(where, "consume"))
+    written = document(task)
+    actions = [step.name for step in task.steps if step.unit is not None]
+    check_by_val(val, domain_text(written), problem_text(written), actions)
+    with pytest.raises(InternalError, match="VAL does not accept"):
+        check_by_val(val, domain_text(written), problem_text(written), actions[::-1])
 
 
 def test_the_engines_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
