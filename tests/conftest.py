@@ -12,6 +12,7 @@ from foon_asp.dataset import Dataset
 from foon_asp.problem import Domain
 
 ROOT = Path(__file__).parent.parent
+PUBLIC_DATA = Path(os.environ.get("FOON_PUBLIC_DATA", ROOT.parent / "shared" / "foon"))
 
 
 @pytest.fixture(scope="session")
@@ -22,10 +23,9 @@ def built_in() -> Dataset:
 @pytest.fixture(scope="session")
 def public_data() -> Path:
     """The folder of the public FOON data; tests that need it skip where it is absent."""
-    folder = Path(os.environ.get("FOON_PUBLIC_DATA", ROOT.parent / "shared" / "foon"))
-    if not (folder / "universal" / "FOON.txt").exists():
-        pytest.skip(f"no public FOON data in {folder}; set FOON_PUBLIC_DATA")
-    return folder
+    if not (PUBLIC_DATA / "universal" / "FOON.txt").exists():
+        pytest.skip(f"no public FOON data in {PUBLIC_DATA}; set FOON_PUBLIC_DATA")
+    return PUBLIC_DATA
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 import small_foons
-from conftest import ROOT
+from conftest import PUBLIC_DATA, ROOT
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -364,8 +364,7 @@ def test_files(tmp_path: Path) -> None:
 
 
 def subgraph_files() -> list[str]:
-    folder = ROOT.parent / "shared" / "foon" / "subgraphs"
-    return sorted(path.name for path in folder.glob("*.txt")) or ["none"]
+    return sorted(path.name for path in (PUBLIC_DATA / "subgraphs").glob("*.txt")) or ["none"]
 
 
 @pytest.mark.parametrize("name", subgraph_files())
