@@ -358,7 +358,7 @@ def run_suggest(options: argparse.Namespace) -> int:
         domain,
         [domain.project(goal) for goal in dataset.goals],
         options.by,
-        using=tuple(label.strip().lower() for label in options.using.split(",") if label.strip()),
+        using=[label for label in options.using.split(",") if label.strip()],
         everything=options.all,
         time_limit=options.time_limit,
         constraints=constraints,

@@ -310,9 +310,6 @@ class Pantry:
             return frozenset(node.contents)
         return frozenset((node.label,))
 
-    def _tool(self, node: ObjectNode) -> bool:
-        return node.bare or (node.label in self._domain.kitchen.utensils and not node.contents)
-
     def _alike(self, names: frozenset[str], thing: int) -> bool:
         """Whether an object is for the most part what names say: egg, but not a cake with egg in it."""
         others = self._names(self._domain.node(thing))
@@ -339,7 +336,7 @@ class Pantry:
             other
             for other, things in self._by_name.items()
             if set(other.split()) < words or set(other.split()) > words
-            if self._tool(self._domain.node(things[0])) == self._tool(wanted)
+            if self._domain.is_tool(self._domain.node(things[0])) == self._domain.is_tool(wanted)
         ]
         alike = get_close_matches(name, self._by_name, n=_NEAREST, cutoff=_SIMILAR)
         for other in dict.fromkeys([*alike, *sorted(akin, key=lambda other: (len(other), other))]):

@@ -11,6 +11,7 @@ from foon_asp.criteria import Level
 from foon_asp.effects import Effects
 from foon_asp.errors import InternalError, QueryError
 from foon_asp.pddl_names import DomainNames, Names, place, plain
+from foon_asp.plan import held_in_order
 from foon_asp.prices import Prices
 from foon_asp.problem import Domain, Problem
 
@@ -316,15 +317,7 @@ def step_orderings(steps: Sequence[Step], initially: Iterable[Fact]) -> list[tup
     lasting = set(initially) - deleted
     needs = [set(step.needs) - lasting for step in steps]
     adds = [set(step.adds) - lasting for step in steps]
-    deletes = [set(step.deletes) for step in steps]
-    return [
-        (before, after)
-        for after in range(len(steps))
-        for before in range(after)
-        if adds[before] & (needs[after] | deletes[after])
-        or deletes[before] & (needs[after] | deletes[after] | adds[after])
-        or needs[before] & deletes[after]
-    ]
+    return held_in_order(needs, adds, [set(step.deletes) for step in steps])
 
 
 def _listed(nodes: Iterable[object]) -> str:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass
+from typing import TypeVar
 
 from foon_asp.effects import Effects
 from foon_asp.problem import Domain
 from foon_asp.tree import Replay
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,10 +146,19 @@ def orderings(effects: Effects, units: Iterable[int]) -> list[tuple[int, int]]:
     order = list(units)
     needs = [set(effects.needs(unit)) - effects.endless for unit in order]
     adds = [set(effects.adds(unit)) - effects.endless for unit in order]
-    deletes = [set(effects.deletes(unit)) for unit in order]
+    return held_in_order(needs, adds, [set(effects.deletes(unit)) for unit in order])
+
+
+def held_in_order(
+    needs: Sequence[Set[T]], adds: Sequence[Set[T]], deletes: Sequence[Set[T]]
+) -> list[tuple[int, int]]:
+    """Return the pairs of places of which the first must come before the second.
+
+    What is needed, made and taken away at each place may be of any kind.
+    """
     return [
         (before, after)
-        for after in range(len(order))
+        for after in range(len(needs))
         for before in range(after)
         if adds[before] & (needs[after] | deletes[after])
         or deletes[before] & (needs[after] | deletes[after] | adds[after])

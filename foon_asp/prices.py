@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from foon_asp.criteria import Level
@@ -86,21 +86,4 @@ def _distinct(domain: Domain, unit: FunctionalUnit, criterion: str) -> list[str]
     """Return, sorted, what a unit uses of that which the criterion counts once."""
     if criterion == "motions":
         return [unit.motion]
-    utensils = domain.kitchen.utensils
-    handled = _handled if criterion == "tools" else _filled
-    return sorted(utensils & set(handled(domain, unit)))
-
-
-def _handled(domain: Domain, unit: FunctionalUnit) -> Iterator[str]:
-    for thing in (*unit.inputs, *unit.outputs):
-        node = domain.node(thing)
-        yield node.label
-        yield from (state.relatum for state in node.states if state.relatum is not None)
-
-
-def _filled(domain: Domain, unit: FunctionalUnit) -> Iterator[str]:
-    for thing in (*unit.inputs, *unit.outputs):
-        node = domain.node(thing)
-        if node.contents:
-            yield node.label
-        yield from node.containers
+    return sorted(domain.handled(unit) if criterion == "tools" else domain.filled(unit))

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
 from functools import cached_property
 
 from foon_asp.constraints import FREE, Constraints
 from foon_asp.errors import QueryError, closest
-from foon_asp.graph import Foon, ObjectNode
+from foon_asp.graph import Foon, FunctionalUnit, ObjectNode
 from foon_asp.kitchen import Kitchen
 from foon_asp.levels import FULL, check_level, planning_view, project, project_kitchen
 from foon_asp.reading import Closure, Reading
@@ -88,6 +88,25 @@ class Domain:
             hint = closest(str(node), same_label) or closest(node.label, self.foon.labels)
             raise QueryError(f"unknown goal {str(node)!r}{hint}")
         return number
+
+    def is_tool(self, node: ObjectNode) -> bool:
+        """Whether a node is bare, or a utensil that contains nothing."""
+        return node.bare or (node.label in self.kitchen.utensils and not node.contents)
+
+    def handled(self, unit: FunctionalUnit) -> Set[str]:
+        """Return the utensils that a unit handles: what it lists, and what that is in or on."""
+        nodes = self._listed(unit)
+        related = {state.relatum for node in nodes for state in node.states if state.relatum is not None}
+        return self.kitchen.utensils & ({node.label for node in nodes} | related)
+
+    def filled(self, unit: FunctionalUnit) -> Set[str]:
+        """Return the utensils that hold something in a unit, before or after its motion."""
+        nodes = self._listed(unit)
+        vessels = {vessel for node in nodes for vessel in node.containers}
+        return self.kitchen.utensils & ({node.label for node in nodes if node.contents} | vessels)
+
+    def _listed(self, unit: FunctionalUnit) -> list[ObjectNode]:
+        return [self.node(number) for number in (*unit.inputs, *unit.outputs)]
 
     def problem(
         self, goals: Iterable[ObjectNode], *, founded: bool = True, constraints: Constraints = FREE

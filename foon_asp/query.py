@@ -121,10 +121,6 @@ class _Asker(Solver):
         self, rules: Rules, deadline: float | None
     ) -> tuple[str, tuple[Table, ...] | None, tuple[int, ...], bool | None]:
         """Return status, tables, costs and whether there is more, as in `QueryAnswer`."""
-        configuration: Any = self._control.configuration
-        configuration.solve.opt_mode, configuration.solve.models = "optN", 0
-        # What the encodings show depends on the rules alone, or nearly so: there are few models too many.
-        configuration.solve.project = "show"
         atoms = [self._atoms_of(heading) for heading in rules.atoms]
         found: list[tuple[_Shown, tuple[int, ...], bool]] = []
         others: list[_Shown] = []
@@ -144,7 +140,8 @@ class _Asker(Solver):
             return not others
 
         in_time = deadline is None or time.monotonic() < deadline
-        exhausted = in_time and self._run(on_model, deadline)
+        # What the encodings show depends on the rules alone, or nearly so: there are few models too many.
+        exhausted = in_time and self._enumerate(on_model, deadline)
         if not found:
             return ("none" if exhausted else "limit"), None, (), False if exhausted else None
         shown, costs, best = found[0]

@@ -156,10 +156,7 @@ def check_constraints(domain: Domain, method: str, constraints: Constraints) -> 
         raise QueryError("steps for a human are chosen by the method 'optimal' alone")
     if method == "ids":
         raise QueryError("'ids' takes no constraints: the first bound decides; use optimal or greedy")
-    labels = {label for node in domain.foon.objects for label in node.named_labels}
-    for label in (*constraints.without, *constraints.without_tools):
-        if label not in labels:
-            raise QueryError(f"nothing in this FOON is called {label!r}{closest(label, labels)}")
+    check_labels(domain, (*constraints.without, *constraints.without_tools))
     motions = domain.foon.motions
     for motion in constraints.avoid_motions:
         if motion not in motions:
@@ -169,6 +166,14 @@ def check_constraints(domain: Domain, method: str, constraints: Constraints) -> 
             raise QueryError(f"there is no unit {unit}; ids go from 0 to {len(domain.foon.units) - 1}")
     if constraints.min_success is not None and not 0 < constraints.min_success <= 1:
         raise QueryError(f"a chance of success is above 0 and at most 1, not {constraints.min_success:g}")
+
+
+def check_labels(domain: Domain, labels: Iterable[str]) -> None:
+    """Raise `QueryError` for a label that nothing in the FOON has, as its own, a relatum or a content."""
+    known = {label for node in domain.foon.objects for label in node.named_labels}
+    for label in labels:
+        if label not in known:
+            raise QueryError(f"nothing in this FOON is called {label!r}{closest(label, known)}")
 
 
 def conflict_reason(problem: Problem) -> str:

@@ -108,20 +108,15 @@ class Solver:
         """
         if deadline is not None and time.monotonic() >= deadline:
             return Answers((), False)
-        configuration: Any = self._control.configuration
-        configuration.solve.opt_mode, configuration.solve.models = "optN", 0
-        configuration.solve.project = "show"
         found: dict[tuple[Atom, ...], Answer] = {}
 
         def on_model(model: clingo.Model) -> bool:
             if model.optimality_proven or not model.cost:
-                answer = Answer(_atoms(model), True, tuple(model.cost), tuple(model.cost), _priorities(model))
+                answer = _answer(model, proven=True)
                 found.setdefault(tuple(atom for atom in answer.atoms or () if atom[0] == distinct), answer)
             return most is None or len(found) < most
 
-        exhausted = self._run(on_model, deadline)
-        configuration.solve.opt_mode, configuration.solve.models = "opt", -1
-        configuration.solve.project = "no"
+        exhausted = self._enumerate(on_model, deadline)
         return Answers(tuple(found[atoms] for atoms in sorted(found)), exhausted)
 
     def best(self, deadline: float | None = None) -> Answer:
@@ -131,7 +126,7 @@ class Solver:
         found: list[Answer] = []
 
         def on_model(model: clingo.Model) -> None:
-            found[:] = [Answer(_atoms(model), False, (), tuple(model.cost), _priorities(model))]
+            found[:] = [_answer(model, proven=False)]
 
         proven = self._run(on_model, deadline)
         if not found:
@@ -140,6 +135,16 @@ class Solver:
         proven = proven or not found[0].costs
         bounds = found[0].costs if proven else self._lower_bounds()
         return replace(found[0], proven=proven, bounds=bounds)
+
+    def _enumerate(self, on_model: Callable[[clingo.Model], bool | None], deadline: float | None) -> bool:
+        """Solve for all best models, each set of shown atoms once, and say whether that was all of them."""
+        configuration: Any = self._control.configuration
+        configuration.solve.opt_mode, configuration.solve.models = "optN", 0
+        configuration.solve.project = "show"
+        exhausted = self._run(on_model, deadline)
+        configuration.solve.opt_mode, configuration.solve.models = "opt", -1
+        configuration.solve.project = "no"
+        return exhausted
 
     def _run(self, on_model: Callable[[clingo.Model], bool | None], deadline: float | None) -> bool:
         """Solve until the deadline, and say whether nothing is left to search."""
@@ -156,8 +161,9 @@ class Solver:
         return tuple(int(bound) for bound in summary.get("lower", ()))
 
 
-def _priorities(model: clingo.Model) -> tuple[int, ...]:
-    return tuple(model.priority)
+def _answer(model: clingo.Model, *, proven: bool) -> Answer:
+    costs = tuple(model.cost)
+    return Answer(_atoms(model), proven, costs if proven else (), costs, tuple(model.priority))
 
 
 def _atoms(model: clingo.Model) -> tuple[Atom, ...]:

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 from foon_asp.constraints import FREE, Constraints
 from foon_asp.criteria import Costs, Level, parse_by
 from foon_asp.decode import decode_tree
-from foon_asp.errors import QueryError, closest
 from foon_asp.facts import quote
 from foon_asp.graph import ObjectNode
 from foon_asp.problem import Domain, Problem
 from foon_asp.program import all_levels, optimisers, too_deep
-from foon_asp.retrieve import check_constraints, check_levels, check_method
+from foon_asp.retrieve import check_constraints, check_labels, check_levels, check_method
 from foon_asp.solve import Answer, Solver
 from foon_asp.state_syntax import clean
 from foon_asp.tree import TaskTree
@@ -153,15 +152,13 @@ def _takers(domain: Domain, using: Iterable[str]) -> dict[str, set[int]]:
     labels = dict.fromkeys(clean(label) for label in using)
     if not labels:
         return {}
+    check_labels(domain, labels)
     named = [set(node.named_labels) for node in domain.foon.objects]
-    known = set().union(*named)
-    takers: dict[str, set[int]] = {}
-    for label in labels:
-        if label not in known:
-            raise QueryError(f"nothing in this FOON is called {label!r}{closest(label, known)}")
-        units = domain.foon.units
-        takers[label] = {unit.id for unit in units if any(label in named[thing] for thing in unit.inputs)}
-    return takers
+    units = domain.foon.units
+    return {
+        label: {unit.id for unit in units if any(label in named[thing] for thing in unit.inputs)}
+        for label in labels
+    }
 
 
 def _made_with(domain: Domain, takers: dict[str, set[int]], dishes: Collection[int]) -> list[int]:

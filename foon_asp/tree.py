@@ -76,18 +76,13 @@ class TaskTree:
     def costs(self) -> Costs:
         rates = [self.domain.kitchen.known_rate(unit) for unit in self.steps if unit.id not in self.human]
         known = [rate for rate in rates if rate is not None]
-        utensils = self.domain.kitchen.utensils
-        listed = [self.domain.node(number) for unit in self.steps for number in (*unit.inputs, *unit.outputs)]
-        relations = [(state.name, state.relatum) for node in listed for state in node.states if state.relatum]
-        labels = {node.label for node in listed}
-        filled = {node.label for node in listed if node.contents}
         return Costs(
             units=len(self.units),
             inputs=sum(len(unit.inputs) for unit in self.steps),
             success=math.prod(known) if len(known) == len(rates) else None,
             depth=self.depth,
-            tools=len(utensils & (labels | {label for _, label in relations})),
-            dirty=len(utensils & (filled | {label for name, label in relations if name == "in"})),
+            tools=len({label for unit in self.steps for label in self.domain.handled(unit)}),
+            dirty=len({label for unit in self.steps for label in self.domain.filled(unit)}),
             motions=len({unit.motion for unit in self.steps}),
             time=sum(unit.duration or 0 for unit in self.steps),
             human=len(self.human),

@@ -124,8 +124,7 @@ def _ordered(things: Iterable[int], domain: Domain) -> list[int]:
 
     def key(thing: int) -> tuple[bool, object]:
         node = domain.node(thing)
-        tool = node.bare or (node.label in domain.kitchen.utensils and not node.contents)
-        return tool, node.sort_key
+        return domain.is_tool(node), node.sort_key
 
     return sorted(things, key=key)
 

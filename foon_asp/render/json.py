@@ -40,7 +40,6 @@ def unit_value(foon: Foon, unit: FunctionalUnit) -> dict[str, Any]:
 def retrieval_value(result: Retrieval) -> dict[str, Any]:
     """Return the value that `retrieve --format json` writes for one goal."""
     tree = result.tree
-    shown = tree_value(tree) if tree else {"size": None, "depth": None, "costs": None, "units": []}
     return {
         "goal": object_to_json(result.goal),
         "method": result.method,
@@ -50,15 +49,20 @@ def retrieval_value(result: Retrieval) -> dict[str, Any]:
         "status": result.status,
         "reason": result.reason,
         "executable": tree.executable if tree else False,
-        **shown,
+        **tree_value(tree),
         "bound": result.bound or None,
         "own": {str(priority): paid for priority, paid in result.own.items()},
         "seconds": round(result.seconds, 6),
     }
 
 
-def tree_value(tree: TaskTree) -> dict[str, Any]:
-    """Return a task tree: what it costs, and its units in the order of execution, with who does them."""
+def tree_value(tree: TaskTree | None) -> dict[str, Any]:
+    """Return a task tree: what it costs, and its units in the order of execution, with who does them.
+
+    Where there is no tree nothing is known of its costs, and it has no units.
+    """
+    if tree is None:
+        return {"size": None, "depth": None, "costs": None, "units": []}
     costs = tree.costs
     units = [
         unit_value(tree.domain.foon, unit) | {"agent": "human" if unit.id in tree.human else "robot"}
@@ -91,8 +95,7 @@ def alternatives_value(result: Alternatives) -> dict[str, Any]:
 
 def menu_value(menu: Menu) -> dict[str, Any]:
     """Return the value that `menu --format json` writes."""
-    tree = menu.together.tree
-    steps = tree_value(tree) if tree else {"size": None, "depth": None, "costs": None, "units": []}
+    steps = tree_value(menu.together.tree)
     for unit in steps["units"]:
         unit["dishes"] = [object_to_json(dish) for dish in menu.dishes[unit["id"]]]
     return {

@@ -11,7 +11,7 @@ from foon_asp.errors import counted
 from foon_asp.plan import Plan
 from foon_asp.planning import PlanAnswer
 from foon_asp.render.json import unit_value
-from foon_asp.render.text import step_lines
+from foon_asp.render.text import failure_text, step_lines
 from foon_asp.state_syntax import object_to_json
 
 
@@ -56,10 +56,7 @@ def plan_text(plan: Plan, effects: Effects) -> str:
             maker.pop(thing, None)
         maker.update((thing, place) for thing in effects.adds(unit) if thing not in effects.endless)
     if not plan.executable:
-        lacking = "; ".join(map(str, plan.replay.missing))
-        failed = plan.replay.failed_at
-        step = "in the end" if failed is None else f"at step {failed + 1}"
-        lines.append(f"CANNOT BE EXECUTED under '{plan.semantics}': {step} it lacks {lacking}")
+        lines.append(f"CANNOT BE EXECUTED under '{plan.semantics}': {failure_text(plan.replay)}")
     return "".join(f"{line}\n" for line in lines)
 
 

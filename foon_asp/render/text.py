@@ -11,11 +11,11 @@ from foon_asp.alternatives import Alternatives
 from foon_asp.compare import COLUMNS, PAPER_COLUMNS, HumanTable, Row
 from foon_asp.criteria import Level
 from foon_asp.errors import counted
-from foon_asp.graph import FunctionalUnit, Source
+from foon_asp.graph import FunctionalUnit, ObjectNode, Source
 from foon_asp.menu import Menu
 from foon_asp.problem import Domain
 from foon_asp.retrieve import Retrieval
-from foon_asp.tree import TaskTree
+from foon_asp.tree import Replay, TaskTree
 
 _WIDTH = 100
 
@@ -48,10 +48,14 @@ def _verdict(result: Retrieval) -> str:
         word = "at most" if Level.parse(name).names == ("success",) else "at least"
         text += f"\nproven so far: {name} {word} {value:.3g}"
     if not tree.executable:
-        missing = "; ".join(str(node) for node in tree.replay.missing)
-        step = "in the end" if tree.replay.failed_at is None else f"at step {tree.replay.failed_at + 1}"
-        text += f"\nNOT EXECUTABLE in any order: {step} it lacks {missing}"
+        text += f"\nNOT EXECUTABLE in any order: {failure_text(tree.replay)}"
     return text
+
+
+def failure_text(replay: Replay) -> str:
+    """Say where a replay failed, and what was missing there."""
+    step = "in the end" if replay.failed_at is None else f"at step {replay.failed_at + 1}"
+    return f"{step} it lacks {'; '.join(map(str, replay.missing))}"
 
 
 _UNITS = {
@@ -165,18 +169,23 @@ def menu_text(menu: Menu) -> str:
 def human_text(tables: Sequence[HumanTable]) -> str:
     """Write for each goal the chance of success, the more steps a human does."""
     columns = max((len(table.trees) for table in tables), default=0)
-    width = min(44, max((len(str(table.goal)) for table in tables), default=4))
+    width, names = _column([table.goal for table in tables])
     lines = ["goal".ljust(width) + "".join(f"{count:>9}" for count in range(columns)) if columns else "goal"]
-    for table in tables:
-        name = str(table.goal)
-        cut = name if len(name) <= width else name[: width - 1] + "…"
+    for name, table in zip(names, tables, strict=True):
         if not table.trees:
-            lines.append(f"{cut:{width}}  -  {table.reason}")
+            lines.append(f"{name}  -  {table.reason}")
             continue
         cells = [_chance(tree, proven) for tree, proven in table.trees]
-        lines.append(f"{cut:{width}}" + "".join(f"{cell:>9}" for cell in cells))
+        lines.append(name + "".join(f"{cell:>9}" for cell in cells))
     lines += ["", "highest chance of success with at most so many steps done by a human; ? not proven"]
     return "\n".join(lines) + "\n"
+
+
+def _column(goals: Iterable[ObjectNode]) -> tuple[int, list[str]]:
+    """Return the width of a column of goals, and each goal cut or filled to that width."""
+    names = [str(goal) for goal in goals]
+    width = min(44, max(map(len, names), default=4))
+    return width, [(name if len(name) <= width else name[: width - 1] + "…").ljust(width) for name in names]
 
 
 def _chance(tree: TaskTree | None, proven: bool) -> str:
@@ -290,8 +299,7 @@ _GROUPS = (
 
 def comparison_text(rows: Sequence[Row]) -> str:
     """Write the table of units per method: `!` cannot be executed, `*` is proven, `-` no tree."""
-    names = [str(row.goal) for row in rows]
-    width = min(44, max(map(len, names), default=4))
+    width, names = _column(row.goal for row in rows)
     present = {name for row in rows for name in row.cells}
     groups = [(title, [name for name in columns if name in present]) for title, columns in _GROUPS]
     groups = [(title, columns) for title, columns in groups if columns]
@@ -301,8 +309,7 @@ def comparison_text(rows: Sequence[Row]) -> str:
         titles.append(" ".join(f"{_HEADS[name]:>8}" for name in columns))
     lines = [" | ".join(heads).rstrip(), " | ".join(titles)]
     for name, row in zip(names, rows, strict=True):
-        cut = name if len(name) <= width else name[: width - 1] + "…"
-        parts = [cut.ljust(width)]
+        parts = [name]
         parts += [" ".join(_cell(row, column) for column in columns) for _, columns in groups]
         lines.append(" | ".join(parts))
     lines.append("")
