@@ -9,10 +9,11 @@
 ('optimal', True)
 """
 
+from foon_asp.builder import merge
 from foon_asp.dataset import Dataset, load
 from foon_asp.errors import FoonError
 from foon_asp.goals import find_goal
-from foon_asp.graph import Foon, FunctionalUnit, ObjectNode, State, merge
+from foon_asp.graph import Foon, FunctionalUnit, ObjectNode, State
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain
 from foon_asp.retrieve import Retrieval, retrieve

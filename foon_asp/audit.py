@@ -7,12 +7,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from foon_asp import resources
+from foon_asp.builder import FoonBuilder
 from foon_asp.decode import column, rows
 from foon_asp.errors import closest, counted, shortened
 from foon_asp.explain import missing_sets
 from foon_asp.facts import facts
 from foon_asp.findings import Finding, Severity
-from foon_asp.graph import Foon, FoonBuilder, FunctionalUnit, ObjectNode, State
+from foon_asp.graph import Foon, FunctionalUnit, ObjectNode, State
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain, Problem
 from foon_asp.solve import Solver, Value
@@ -325,7 +326,7 @@ def _lock_finding(lock: Lock) -> Finding:
 
 
 def _goal_finding(domain: Domain, locked: LockedGoal) -> Finding:
-    makers = domain.reading.makers.get(domain.id_of(locked.goal), [])
+    makers = domain.reading.makers.of(domain.id_of(locked.goal))
     message = f"the goal {locked.goal} can never be made"
     mend = ""
     if locked.missing is not None:

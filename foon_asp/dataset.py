@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from foon_asp.errors import InputError
-from foon_asp.files import read_objects, read_rates, read_stock, read_utensils
+from foon_asp.files import FoonFiles, is_store, read_objects, read_rates, read_stock, read_utensils
 from foon_asp.findings import Finding, Severity
 from foon_asp.graph import Foon, ObjectNode
 from foon_asp.kitchen import Kitchen
 from foon_asp.levels import FULL
-from foon_asp.open_foon import FoonFiles, FoonReader
+from foon_asp.open_foon import open_files
 from foon_asp.problem import Domain
 from foon_asp.resources import built_in_data
 
@@ -38,15 +38,12 @@ class Dataset:
 
 
 def read_foon(paths: Sequence[Path], strict: bool = False) -> FoonFiles:
-    """Read FOON files, text or JSON, and merge them, duplicate units removed.
+    """Read FOON files, text, JSON or compiled stores, and merge them, duplicate units removed.
 
     With `strict` anything odd is an error. Raises `InputError` if a file cannot be read as a FOON or no
     functional unit is in any of them.
     """
-    reader = FoonReader(strict=strict)
-    for path in paths:
-        reader.read(path)
-    files = reader.finish()
+    files = open_files(*paths, strict=strict)
     if not files.foon.units:
         problem = "an empty FOON: no functional unit"
         for finding in files.findings:
@@ -57,8 +54,13 @@ def read_foon(paths: Sequence[Path], strict: bool = False) -> FoonFiles:
 
 
 def foon_files(folder: Path) -> list[Path]:
-    """Return `FOON.txt` or `FOON.json` of a folder, or else all its subgraphs (`*.txt`), sorted."""
-    for universal in (folder / "FOON.txt", folder / "FOON.json"):
+    """Return the universal FOON of a folder (text, JSON or store), or else its subgraphs (`*.txt`), sorted.
+
+    A store is a folder itself, that of the FOON alone.
+    """
+    if is_store(folder):
+        return [folder]
+    for universal in (folder / "FOON.txt", folder / "FOON.json", folder / "FOON.foon"):
         if universal.exists():
             return [universal]
     return sorted(path for path in folder.glob("*.txt") if path.name not in _BESIDE_A_FOON)
@@ -77,9 +79,9 @@ def load(
 ) -> Dataset:
     """Load a data folder, the built-in one by default; files named one by one replace its own.
 
-    A folder has `FOON.txt` or several subgraphs `*.txt`, and may have `kitchen.json`, `motion.txt`,
-    `utensils.txt` and `goal_nodes.json`. What the folder lacks is empty. With `strict_format` anything
-    odd in a FOON file is an error. Raises `InputError`.
+    A folder has `FOON.txt` (or `FOON.json`, or the store `FOON.foon`) or several subgraphs `*.txt`, and may
+    have `kitchen.json`, `motion.txt`, `utensils.txt` and `goal_nodes.json`. What the folder lacks is empty.
+    With `strict_format` anything odd in a FOON file is an error. Raises `InputError`.
     """
     root = built_in_data() if folder is None else Path(folder)
     if not root.is_dir():

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from foon_asp.arrays import Ids
 from foon_asp.errors import QueryError
 from foon_asp.problem import Domain, Problem
-from foon_asp.reading import Ids
 
 SEMANTICS = ("add", "transform", "consume")
 

@@ -253,7 +253,7 @@ def missing_sets(domain: Domain, goal: int, *, most: int = 1, time_limit: float 
 def _enough(problem: Problem, things: Iterable[int]) -> bool:
     """Whether the goal can be made with some things more, by plain graph search."""
     domain = problem.domain
-    return problem.goals[0] in domain.reading.forward([*domain.stock, *things], problem.units).available
+    return problem.goals[0] in domain.reading.execute({*domain.stock, *things}, problem.units).available
 
 
 def _check(problem: Problem, things: Sequence[int]) -> None:

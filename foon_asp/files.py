@@ -1,4 +1,7 @@
-"""Reading what stands beside a FOON: kitchen, goals, success rates, utensils. One clear error each."""
+"""Reading what stands beside a FOON: kitchen, goals, success rates, utensils. One clear error each.
+
+And what all readers of FOONs share: what they return, and how a compiled store is told from other folders.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +9,38 @@ import json
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from foon_asp.errors import InputError
-from foon_asp.graph import ObjectNode, State, contains, inside
+from foon_asp.findings import Finding
+from foon_asp.graph import Foon, ObjectNode, State, contains, inside
 from foon_asp.state_syntax import Report, clean, parse_state, quiet, read_contents, read_relatum
+
+MANIFEST = "manifest.json"
+"""The file of a compiled store that describes the others."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoonFiles:
+    """What some files hold: the FOON, what is odd in them, and how many units became of it.
+
+    `units_read` counts duplicates, too; `units_reported` are left out of the FOON, each with a finding.
+    Both together are all the units in the files.
+    """
+
+    foon: Foon
+    findings: tuple[Finding, ...]
+    units_read: int
+    units_reported: int
+
+
+def is_store(path: Path) -> bool:
+    """Tell whether a path is meant as a compiled store: a folder that is named or filled like one."""
+    return path.is_dir() and (
+        path.suffix == ".foon" or (path / MANIFEST).exists() or (path / "units.parquet").exists()
+    )
 
 
 def read_bytes(path: Path) -> bytes:

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.errors import InputError
 from foon_asp.files import kind_of, object_from_json
 from foon_asp.findings import Finding
-from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, Mark, ObjectNode, Source, contains
+from foon_asp.graph import Annotation, Foon, FunctionalUnit, Mark, ObjectNode, Source, contains
 from foon_asp.oddities import oddity
 from foon_asp.state_syntax import clean, object_to_json, one_line
 from foon_asp.unit_syntax import (
@@ -275,7 +276,7 @@ class JsonReader:
         right = [self._builder.object(node) for node in outputs]
         for code, message in check_sides(left, right):
             self._report(code, message)
-        if self._builder.unit(motion, left, right, note) is None:
+        if not self._builder.unit(motion, left, right, note)[1]:
             self._report("duplicate-unit", "this unit was there before")
 
 

@@ -66,14 +66,14 @@ def find_goal(domain: Domain, text: str, preferred: Iterable[ObjectNode] = ()) -
     `preferred` nodes (the goals of a data folder) wins. Write `[]` or `{}` to say that a node has none.
     Raises `QueryError` for an unknown or ambiguous goal, with the closest matches.
     """
-    nodes = [*domain.foon.objects, *domain.strangers]
+    labels = domain.foon.labels.union(node.label for node in domain.strangers)
     whole = " ".join(text.lower().split())
     if not whole:
         raise QueryError("the goal is empty; write LABEL [state] {content} in CONTAINER")
-    pattern = _parse(whole, {node.label for node in nodes})
-    same_label = [node for node in nodes if node.label == pattern.label]
+    pattern = _parse(whole, labels)
+    same_label = domain.foon.labelled(pattern.label)
+    same_label += [node for node in domain.strangers if node.label == pattern.label]
     if not same_label:
-        labels = {node.label for node in nodes}
         begins = [label for label in labels if pattern.label.startswith(label + " ")]
         if begins:
             label = max(begins, key=len)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from foon_asp.arrays import Ids
+from foon_asp.builder import FoonBuilder
 from foon_asp.errors import QueryError
-from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, ObjectNode, State, UnitKey
+from foon_asp.graph import Annotation, Foon, FunctionalUnit, ObjectNode, State
 from foon_asp.kitchen import Kitchen
-from foon_asp.reading import Ids, Reading
+from foon_asp.reading import Reading
 
 LEVELS = (1, 2, 3)
 FULL = 3
@@ -70,15 +72,12 @@ def _view(foon: Foon, inputs: Sequence[Ids], outputs: Sequence[Ids], level: int)
     """Build a FOON of the given ports of each unit, projected."""
     builder = FoonBuilder()
     ids = [builder.object(project(node, level)) for node in foon.objects]
-    seen: dict[UnitKey, int] = {}
     images: list[int] = []
     for unit in foon.units:
         before, behind = inputs[unit.id], outputs[unit.id]
         note = _note(unit, before, behind)
-        new_inputs, new_outputs = [ids[o] for o in before], [ids[o] for o in behind]
-        key = (frozenset(new_inputs), unit.motion, frozenset(new_outputs))
-        images.append(seen.setdefault(key, len(seen)))
-        builder.unit(unit.motion, new_inputs, new_outputs, note)
+        image, _ = builder.unit(unit.motion, [ids[o] for o in before], [ids[o] for o in behind], note)
+        images.append(image)
     builder.read += foon.duplicates
     return builder.build(), images
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import codecs
+import gc
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.errors import InputError
-from foon_asp.files import read_bytes
+from foon_asp.files import FoonFiles, is_store, read_bytes
 from foon_asp.findings import Finding, Severity
 from foon_asp.foon_json import JSON_ADVICE, JsonReader
-from foon_asp.graph import Foon, FoonBuilder
 from foon_asp.oddities import USUAL, oddity
 from foon_asp.text import TextReader
 
@@ -29,20 +31,6 @@ _NEWEST_PICKLE = 5
 _TEXT_ADVICE = "a unit is O and S lines, an M line, O and S lines, and '//'"
 
 
-@dataclass(frozen=True, slots=True)
-class FoonFiles:
-    """What some files hold: the FOON, what is odd in them, and how many units became of it.
-
-    `units_read` counts duplicates, too; `units_reported` are left out of the FOON, each with a finding.
-    Both together are all the units in the files.
-    """
-
-    foon: Foon
-    findings: tuple[Finding, ...]
-    units_read: int
-    units_reported: int
-
-
 class FoonReader:
     """Reads FOON files, one after the other, into one FOON."""
 
@@ -52,14 +40,27 @@ class FoonReader:
         self._text = TextReader(self._builder)
         self._json = JsonReader(self._builder)
         self._findings: list[Finding] = []
+        self._reported = 0
 
     @property
     def units_reported(self) -> int:
-        return self._text.reported_units + self._json.reported_units
+        return self._text.reported_units + self._json.reported_units + self._reported
 
     def read(self, path: Path) -> None:
-        """Read a file. Raises `InputError` if it cannot be read, is no FOON, or is odd and must not be."""
-        self.read_data(read_bytes(path), path)
+        """Read a file or a store.
+
+        Raises `InputError` if it cannot be read, is no FOON, or is odd and must not be.
+        """
+        if is_store(path):
+            self._include(open_files(path, strict=self._strict))
+        else:
+            self.read_data(read_bytes(path), path)
+
+    def _include(self, files: FoonFiles) -> None:
+        self._builder.include(files.foon)
+        self._builder.read += files.foon.duplicates
+        self._reported += files.units_reported
+        self._findings += files.findings
 
     def read_data(self, data: bytes, path: Path) -> None:
         """Read what a file holds; the path only says how to name it."""
@@ -68,7 +69,8 @@ class FoonReader:
         text, findings = decode(data, str(path))
         reader = self._json if is_json(text) else self._text
         reader.findings.clear()
-        reader.read(text, str(path))
+        with _no_search_for_cycles():
+            reader.read(text, str(path))
         findings += reader.findings
         if self._builder.read == read and (reader is self._json or self.units_reported == reported):
             _refuse_unreadable(findings, path, JSON_ADVICE if reader is self._json else _TEXT_ADVICE)
@@ -81,6 +83,37 @@ class FoonReader:
         return FoonFiles(
             self._builder.build(), tuple(self._findings), self._builder.read, self.units_reported
         )
+
+
+def open_files(*paths: Path, strict: bool = False) -> FoonFiles:
+    """Read FOON files, text, JSON or stores, and merge them; a store alone is opened as it is.
+
+    With `strict` anything odd is an error. Raises `InputError` if one cannot be read as a FOON.
+    """
+    if len(paths) == 1 and is_store(paths[0]):
+        # pyarrow takes a while to load, and most questions are about files.
+        from foon_asp.store import open_store
+
+        files = open_store(paths[0])
+        if strict:
+            _refuse_odd(files.findings, paths[0])
+        return files
+    reader = FoonReader(strict=strict)
+    for path in paths:
+        reader.read(path)
+    return reader.finish()
+
+
+@contextmanager
+def _no_search_for_cycles() -> Iterator[None]:
+    """Keep Python from looking for cycles: a reader makes millions of objects, and not one cycle."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
 
 
 def decode(data: bytes, file: str) -> tuple[str, list[Finding]]:
@@ -135,7 +168,7 @@ def _refuse_unreadable(findings: list[Finding], path: Path, advice: str) -> None
             raise InputError(path, finding.line, f"not a FOON file: {finding.message}", advice)
 
 
-def _refuse_odd(findings: list[Finding], path: Path) -> None:
+def _refuse_odd(findings: Iterable[Finding], path: Path) -> None:
     odd = [finding for finding in findings if finding.code not in USUAL]
     if odd:
         first = min(odd, key=lambda finding: finding.line)

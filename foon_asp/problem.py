@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import copy
+import itertools
 from collections.abc import Iterable, Sequence, Set
+from dataclasses import replace
 from functools import cached_property
 
 from foon_asp.constraints import FREE, Constraints
@@ -34,16 +37,33 @@ class Domain:
             foon, self.images = planning_view(foon, reading, level)
             kitchen = project_kitchen(kitchen, level)
         self.foon = foon
+        self._take_stock(kitchen)
+
+    def _take_stock(self, kitchen: Kitchen) -> None:
+        foon = self.foon
         self.kitchen = kitchen
-        ids: dict[int, None] = {}
-        self.strangers: list[ObjectNode] = []
-        for node in dict.fromkeys(kitchen.objects):
-            number = foon.id_of(node)
-            if number is None:
-                number = len(foon.objects) + len(self.strangers)
-                self.strangers.append(node)
-            ids[number] = None
-        self.stock: dict[int, None] = ids
+        stock = list(dict.fromkeys(kitchen.objects))
+        known = foon.objects.find(stock)
+        self.strangers = [node for node, number in zip(stock, known, strict=True) if number is None]
+        new = itertools.count(len(foon.objects))
+        self.stock = {next(new) if number is None else number: None for number in known}
+
+    def with_stock(self, objects: Iterable[ObjectNode]) -> Domain:
+        """See the same FOON from a kitchen with other objects at hand.
+
+        What units need and make is worked out once for both; of objects that are counted here there are as
+        many.
+        """
+        listed = dict.fromkeys(map(self.project, objects))
+        counts = {node: count for node, count in self.kitchen.quantities.items() if node in listed}
+        reading = self.reading
+        other = copy.copy(self)
+        vars(other).pop("closure", None)
+        vars(other).pop("quantities", None)
+        other.reading = reading
+        kitchen = replace(self.kitchen, objects=tuple(listed), quantities=counts)
+        other._take_stock(kitchen)
+        return other
 
     @property
     def labels_only(self) -> bool:
@@ -84,7 +104,7 @@ class Domain:
         if number is None:
             if node in self.strangers:
                 return len(self.foon.objects) + self.strangers.index(node)
-            same_label = [str(other) for other in self.foon.objects if other.label == node.label]
+            same_label = [str(other) for other in self.foon.labelled(node.label)]
             hint = closest(str(node), same_label) or closest(node.label, self.foon.labels)
             raise QueryError(f"unknown goal {str(node)!r}{hint}")
         return number

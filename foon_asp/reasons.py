@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from foon_asp.errors import shortened
@@ -23,8 +23,8 @@ class Lack:
     goal: int
     units: list[int]
     raw: list[int]
-    available: dict[int, int]
-    executable: dict[int, int]
+    available: Mapping[int, int]
+    executable: Mapping[int, int]
 
     @classmethod
     def of(cls, domain: Domain, goal: int) -> Lack:
@@ -33,7 +33,7 @@ class Lack:
         units = reading.backward([goal], available)
         needed = {thing for unit in units for thing in reading.needs[unit]}
         raw = sorted(thing for thing in needed if thing not in available and is_raw(domain, thing))
-        closure = reading.forward([*needed & available.keys(), *raw], units)
+        closure = reading.execute({*needed & available.keys(), *raw}, units)
         return cls(goal, units, raw, closure.available, closure.executable)
 
     @property

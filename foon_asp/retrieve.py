@@ -170,7 +170,7 @@ def check_constraints(domain: Domain, method: str, constraints: Constraints) -> 
 
 def check_labels(domain: Domain, labels: Iterable[str]) -> None:
     """Raise `QueryError` for a label that nothing in the FOON has, as its own, a relatum or a content."""
-    known = {label for node in domain.foon.objects for label in node.named_labels}
+    known = domain.foon.named_labels
     for label in labels:
         if label not in known:
             raise QueryError(f"nothing in this FOON is called {label!r}{closest(label, known)}")

@@ -180,7 +180,7 @@ def _downstream(domain: Domain, units: Iterable[int]) -> set[int]:
             if thing in found or thing in domain.stock:
                 continue
             found.add(thing)
-            for user in reading.users.get(thing, ()):
+            for user in reading.users.of(thing):
                 if user in executable and user not in seen:
                     seen.add(user)
                     open_.append(user)

@@ -12,8 +12,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.findings import Finding
-from foon_asp.graph import Annotation, Foon, FoonBuilder, FunctionalUnit, Mark, ObjectNode, Source, State
+from foon_asp.graph import Annotation, Foon, FunctionalUnit, Mark, ObjectNode, Source, State
 from foon_asp.mend import OF_ROWS, mend_row
 from foon_asp.oddities import oddity
 from foon_asp.state_syntax import Report, make_state, one_line, parse_state, without_control_characters
@@ -33,6 +34,7 @@ _END_OF_UNIT = re.compile(r"^//.*\n?", re.MULTILINE)
 _START = r"(?:[OM]\d*(?:[\t ]|$)|#)"
 _BLOCK = re.compile(rf"^{_START}.*\n?(?:(?!{_START}).*\n|(?!{_START}).+\Z)*", re.MULTILINE)
 _HEAD = re.compile(r"[OSM]\d*(?:[\t ]+|$)")
+_PLAIN_CONTENTS = re.compile(r"S\d*\tcontains\t\{([a-z]+(?:[ ,][a-z]+)*)\}")
 _LIKE_A_TIME = re.compile(r"[<\d]|assume|unknown|n/?a|-|$", re.IGNORECASE)
 _NOT_A_LABEL = re.compile(r"[\d!]*")
 
@@ -65,6 +67,7 @@ class _Unit:
     sources: list[Source] = field(default_factory=list)
     line: int = 0
     broken: bool = False
+    marked: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,21 +154,23 @@ class TextReader:
     def _read_unit(self, chunk: str, line: int) -> bool:
         """Read the text between two `//` lines that begins at `line`. Return whether a unit is there."""
         unit = _Unit()
-        place = 0
-        first = _BLOCK.search(chunk)
-        if first is None or first.start() > 0:
-            place = first.start() if first else len(chunk)
-            line = self._read_stray(chunk[:place], line)
-        for match in _BLOCK.finditer(chunk, place):
-            raw = match[0]
+        rows = _BLOCK.findall(chunk)
+        stray = len(chunk) - sum(map(len, rows))
+        if stray:
+            line = self._read_stray(chunk[:stray], line)
+        for raw in rows:
             if raw[0] == "O":
                 block = self._blocks.get(raw)
                 if block is None:
                     block = self._blocks[raw] = self._read_object(raw)
-                for offset, code, message, mend in block.oddities:
-                    self._report(line + offset, code, message, mend)
+                if block.oddities:
+                    for offset, code, message, mend in block.oddities:
+                        self._report(line + offset, code, message, mend)
                 unit.line = unit.line or line
-                unit.broken |= block.node is None
+                if block.node is None:
+                    unit.broken = True
+                if block.mark is not _NO_MARK:
+                    unit.marked = True
                 (unit.outputs if unit.motions else unit.inputs).append(block)
                 line += block.lines
                 continue
@@ -175,7 +180,9 @@ class TextReader:
                 unit.line = unit.line or line
             else:
                 self._read_comment(head, unit)
-            line = self._read_stray(rest, line + 1)
+            line += 1
+            if rest:
+                line = self._read_stray(rest, line)
         return self._finish(unit)
 
     def _read_stray(self, text: str, line: int) -> int:
@@ -222,7 +229,8 @@ class TextReader:
             if known is None:
                 known = self._states[row] = _read_state(row)
             state, found = known
-            oddities += [(offset, *one) for one in found]
+            if found:
+                oddities += [(offset, *one) for one in found]
             if state is not None:
                 if state in states:
                     oddities.append((offset, "duplicate-state", f"{str(state)!r} is said twice", ""))
@@ -244,17 +252,19 @@ class TextReader:
         elif not unit.broken:
             motion = self._motion(*unit.motions[0])
             if motion.label:
-                self._add(unit, motion.label, self._annotation(unit, motion))
+                self._add(unit, motion)
                 return True
         self.reported_units += max(1, len(unit.motions))
         return True
 
-    def _add(self, unit: _Unit, motion: str, note: Annotation) -> None:
+    def _add(self, unit: _Unit, motion: _Motion) -> None:
         inputs = [b.number if b.number >= 0 else self._number(b) for b in unit.inputs]
         outputs = [b.number if b.number >= 0 else self._number(b) for b in unit.outputs]
         for code, message in check_sides(inputs, outputs):
             self._report(unit.line, code, message)
-        if self._builder.unit(motion, inputs, outputs, note) is None:
+        marks = [block.mark for block in (*unit.inputs, *unit.outputs)] if unit.marked else ()
+        sources = unit.sources or (Source(self._file, unit.line, self._video),)
+        if not self._builder.add(motion.label, inputs, outputs, motion.note, sources, marks)[1]:
             self._report(unit.line, "duplicate-unit", "this unit was there before")
 
     def _number(self, block: _Block) -> int:
@@ -262,11 +272,6 @@ class TextReader:
         assert block.node is not None
         block.number = self._builder.object(block.node)
         return block.number
-
-    def _annotation(self, unit: _Unit, motion: _Motion) -> Annotation:
-        sources = tuple(unit.sources) or (Source(self._file, unit.line, self._video),)
-        note = motion.note
-        return Annotation(sources, note.composite, note.start, note.end, note.agent, note.rate, _marks(unit))
 
     def _motion(self, line: int, row: str) -> _Motion:
         """Read an `M` line, and report what is odd in it."""
@@ -335,14 +340,12 @@ def _read_source(text: str, video: str) -> Source:
     return Source(text, 0, video)
 
 
-def _marks(unit: _Unit) -> tuple[Mark, ...]:
-    """Return the marks of inputs and outputs; nothing if none is marked."""
-    marks = tuple([block.mark for block in unit.inputs] + [block.mark for block in unit.outputs])
-    return () if marks.count(_NO_MARK) == len(marks) else marks
-
-
 def _fields(row: str) -> list[str]:
     """Split an O, S or M line behind its id; the fields are stripped, empty ones at the end dropped."""
+    if row.count("\t") == 1 and row[1:2] == "\t":
+        # Most lines are nothing but a label.
+        field = row[2:].strip()
+        return [field] if field else []
     head = _HEAD.match(row)
     fields = [field.strip() for field in row[head.end() if head else 0 :].split("\t")]
     while fields and not fields[-1]:
@@ -381,13 +384,19 @@ def _read_mark(fields: list[str], odd: list[tuple[str, str]]) -> Mark:
 
 def _read_state(row: str) -> _StateLine:
     """Read an `S` line of an object."""
+    plain = _PLAIN_CONTENTS.fullmatch(row)
+    if plain:
+        # Of all lines these are the most varied in a large FOON, and hardly ever is one odd.
+        contents = sorted(plain[1].split(","))
+        if len(set(contents)) == len(contents):
+            return State("contains", contents=tuple(contents)), ()
     if not row.strip():
         return None, (("blank-line", "a blank line", "delete the line"),)
     odd: list[tuple[str, str]] = []
     state = _state_of(row, lambda code, message: odd.append((code, message)))
-    found = {code for code, _ in odd}
-    codes = OF_ROWS & found
-    mend = _state_mend(row, state, codes) if codes and _DOUBTFUL.isdisjoint(found) else ""
+    all_codes = {code for code, _ in odd}
+    codes = OF_ROWS & all_codes
+    mend = _state_mend(row, state, codes) if codes and _DOUBTFUL.isdisjoint(all_codes) else ""
     return state, tuple((code, message, mend if code in codes else "") for code, message in odd)
 
 

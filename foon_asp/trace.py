@@ -114,7 +114,7 @@ class _Search:
         todo: list[_Task] = []
         if left == 0 or thing in self._stock:
             return todo
-        for unit in self._reading.makers.get(thing, ()):
+        for unit in self._reading.makers.of(thing):
             todo += [(need, left - 1, None) for need in self._reading.needs[unit]]
             if self._closure.executable.get(unit, self._never) <= left:
                 todo.append((thing, left, unit))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from foon_asp.criteria import Costs
@@ -49,7 +49,7 @@ class TaskTree:
         in file order.
         """
         goals = tuple(goals)
-        executable = domain.reading.forward(domain.stock, units).executable
+        executable = domain.reading.execute(domain.stock, units).executable
         order = _order(domain, goals, executable)
         order += sorted(set(units) - executable.keys())
         rounds = tuple(executable.get(unit, 0) for unit in order)
@@ -69,8 +69,8 @@ class TaskTree:
         """How many rounds it takes to reach the goals if everything possible is done at once."""
         if not self.executable:
             return None
-        reached = self.domain.reading.forward(self.domain.stock, self.units).available
-        return max((reached[goal] for goal in self.goals), default=0)
+        reached = self.domain.reading.execute(self.domain.stock, self.units).available
+        return max((reached.get(goal, 0) for goal in self.goals), default=0)
 
     @property
     def costs(self) -> Costs:
@@ -99,17 +99,18 @@ def likeliest_to_fail(domain: Domain, units: Iterable[int], count: int) -> list[
 def replay(domain: Domain, goals: Iterable[int], units: Iterable[int]) -> Replay:
     """Execute units one by one from the kitchen; nothing is used up."""
     reading = domain.reading
-    at_hand = set(domain.stock)
+    stock = domain.stock
+    at_hand: set[int] = set()
     for place, unit in enumerate(units):
-        lacking = [thing for thing in reading.needs[unit] if thing not in at_hand]
+        lacking = [thing for thing in reading.needs[unit] if not (thing in at_hand or thing in stock)]
         if lacking:
             return Replay(False, place, tuple(domain.node(thing) for thing in lacking))
         at_hand.update(reading.makes[unit])
-    lacking = [goal for goal in goals if goal not in at_hand]
+    lacking = [goal for goal in goals if not (goal in at_hand or goal in stock)]
     return Replay(not lacking, None, tuple(domain.node(goal) for goal in lacking))
 
 
-def _order(domain: Domain, goals: Iterable[int], executable: dict[int, int]) -> list[int]:
+def _order(domain: Domain, goals: Iterable[int], executable: Mapping[int, int]) -> list[int]:
     """Order executable units so that each stands behind the makers of its needs, depth first."""
     reading = domain.reading
     maker: dict[int, int] = {}

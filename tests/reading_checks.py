@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from foon_asp.errors import FoonError
+from foon_asp.files import FoonFiles
 from foon_asp.findings import Finding
 from foon_asp.foon_json import write_api, write_units
 from foon_asp.graph import Foon, Mark, ObjectNode, Source
 from foon_asp.mend import OF_ROWS, mend_text
 from foon_asp.oddities import ODDITIES
-from foon_asp.open_foon import FoonFiles, FoonReader, decode, is_json
+from foon_asp.open_foon import FoonReader, decode, is_json
 from foon_asp.text import write_text
 
 MENDED = OF_ROWS | {"blank-line", "byte-order-mark", "control-character", "unit-not-closed"}

@@ -13,7 +13,8 @@ import brute_force
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
-from foon_asp.graph import Annotation, Foon, FoonBuilder, ObjectNode, State, contains, inside
+from foon_asp.builder import FoonBuilder
+from foon_asp.graph import Annotation, Foon, FunctionalUnit, ObjectNode, State, contains, inside
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain
 
@@ -46,6 +47,16 @@ def node(text: str) -> ObjectNode:
     if match["container"]:
         states.append(inside(match["container"]))
     return ObjectNode.of(match["label"].strip(), states or [State("ready")])
+
+
+def with_units(foon: Foon, units: Iterable[FunctionalUnit]) -> Foon:
+    """Return a FOON of the same objects, with other units."""
+    builder = FoonBuilder()
+    for thing in foon.objects:
+        builder.object(thing)
+    for unit in units:
+        builder.unit(unit.motion, unit.inputs, unit.outputs, unit.annotation)
+    return builder.build()
 
 
 def written(thing: ObjectNode) -> str:

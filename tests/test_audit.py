@@ -8,11 +8,13 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT
+from small_foons import with_units
 
 from foon_asp.audit import Audit, audit
+from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import Dataset
 from foon_asp.findings import Severity
-from foon_asp.graph import Foon, FoonBuilder, ObjectNode
+from foon_asp.graph import Foon, ObjectNode
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain
 from foon_asp.retrieve import retrieve
@@ -152,7 +154,7 @@ def _edited(foon: Foon, number: int, lock: object) -> Foon:
     assert old in unit.inputs
     assert new is not None
     units[number] = replace(unit, inputs=tuple(new if i == old else i for i in unit.inputs))
-    return replace(foon, units=units)
+    return with_units(foon, units)
 
 
 def test_the_audit_lists_the_smallest_set_that_unlocks_fried_rice(

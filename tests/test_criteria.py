@@ -13,12 +13,13 @@ from hypothesis import event, given
 from small_foons import domain, many, node, queries
 from test_cli import run, run_json
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.compare import compare_human
 from foon_asp.constraints import Constraints
 from foon_asp.criteria import CRITERIA, Level, parse_by
 from foon_asp.dataset import Dataset
 from foon_asp.errors import QueryError
-from foon_asp.graph import Annotation, FoonBuilder, ObjectNode
+from foon_asp.graph import Annotation, ObjectNode
 from foon_asp.problem import Domain
 from foon_asp.retrieve import retrieve
 

@@ -22,21 +22,12 @@ from reading_checks import (
     read,
 )
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import read_foon
 from foon_asp.errors import InputError
 from foon_asp.files import object_from_json
 from foon_asp.foon_json import write_api, write_units
-from foon_asp.graph import (
-    Annotation,
-    Foon,
-    FoonBuilder,
-    Mark,
-    ObjectNode,
-    Source,
-    State,
-    contains,
-    inside,
-)
+from foon_asp.graph import Annotation, Foon, Mark, ObjectNode, Source, State, contains, inside
 from foon_asp.mend import mend_text
 from foon_asp.oddities import ODDITIES
 from foon_asp.open_foon import decode

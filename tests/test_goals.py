@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import Dataset
 from foon_asp.errors import QueryError
 from foon_asp.goals import find_goal
-from foon_asp.graph import FoonBuilder, ObjectNode, State, contains, inside
+from foon_asp.graph import ObjectNode, State, contains, inside
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain
 

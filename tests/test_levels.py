@@ -16,11 +16,12 @@ from small_foons import domain, domains, foon, many, motions, node, nodes, queri
 
 import foon_asp
 from foon_asp import resources
+from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import Dataset
 from foon_asp.errors import QueryError
 from foon_asp.facts import facts
 from foon_asp.goals import find_goal
-from foon_asp.graph import Annotation, Foon, FoonBuilder, Mark, ObjectNode, Source, State
+from foon_asp.graph import Annotation, Foon, Mark, ObjectNode, Source, State
 from foon_asp.kitchen import Kitchen
 from foon_asp.levels import LEVELS, at_level, project
 from foon_asp.problem import Domain, Problem

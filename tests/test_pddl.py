@@ -18,12 +18,13 @@ from conftest import PUBLIC_DATA, ROOT
 from hypothesis import given
 from hypothesis import strategies as st
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.constraints import Constraints
 from foon_asp.criteria import Level
 from foon_asp.dataset import read_foon
 from foon_asp.effects import SEMANTICS, Effects
 from foon_asp.errors import InputError, QueryError
-from foon_asp.graph import Annotation, Foon, FoonBuilder, ObjectNode, Source, State, contains, inside
+from foon_asp.graph import Annotation, Foon, ObjectNode, Source, State, contains, inside
 from foon_asp.kitchen import Kitchen
 from foon_asp.pddl import (
     export,
@@ -195,7 +196,7 @@ def test_names_do_not_depend_on_the_goal() -> None:
     large = exported(where, [small_foons.node("soup")], level="units+tools", style="lifted")
     assert small.task.names.units.items() <= large.task.names.units.items()
     assert small.task.names.objects.items() <= large.task.names.objects.items()
-    assert DomainNames(where).objects == DomainNames(where).objects
+    assert DomainNames.of(where).objects == DomainNames.of(Domain(where.foon, where.kitchen)).objects
 
 
 @pytest.mark.parametrize(

@@ -13,13 +13,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_foons import MOTIONS, RATES, domain, domains, many, motions, node
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.criteria import Level
 from foon_asp.dataset import Dataset
 from foon_asp.decode import column, rows
 from foon_asp.effects import SEMANTICS, Effects
 from foon_asp.errors import QueryError
 from foon_asp.facts import facts
-from foon_asp.graph import Annotation, FoonBuilder, FunctionalUnit, ObjectNode
+from foon_asp.graph import Annotation, FunctionalUnit, ObjectNode
 from foon_asp.kitchen import Kitchen
 from foon_asp.plan import Plan, Store, hopeless, orderings, replay_plan
 from foon_asp.plan_clingo import PlanResult, plan

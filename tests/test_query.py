@@ -18,7 +18,7 @@ import pytest
 from conftest import ROOT
 from hypothesis import given
 from jsonschema import Draft202012Validator
-from small_foons import domain, domains, many, node
+from small_foons import domain, domains, many, node, with_units
 
 from foon_asp.dataset import Dataset
 from foon_asp.errors import InputError, QueryError
@@ -363,7 +363,7 @@ def with_places(where: Domain) -> Domain:
         replace(unit, annotation=replace(unit.annotation, sources=(Source("small.txt", unit.id + 1),)))
         for unit in where.foon.units
     ]
-    return Domain(replace(where.foon, units=units), where.kitchen, strict=where.strict)
+    return Domain(with_units(where.foon, units), where.kitchen, strict=where.strict)
 
 
 @pytest.mark.parametrize("data", ["built_in", "universal"])
@@ -650,7 +650,7 @@ def test_names_and_places(kitchen: Domain) -> None:
     units = [
         replace(kitchen.foon.units[0], annotation=replace(kitchen.foon.units[0].annotation, sources=places))
     ]
-    where = Domain(replace(kitchen.foon, units=units), kitchen.kitchen)
+    where = Domain(with_units(kitchen.foon, units), kitchen.kitchen)
     assert names(Problem(where, (), whole=True)).splitlines() == [
         'name(0,"onion [ready]").',
         'name(1,"knife").',

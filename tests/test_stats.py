@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 
 import numpy as np
 import pytest
 from small_foons import foon, node
 
+from foon_asp.builder import merge
 from foon_asp.dataset import Dataset
 from foon_asp.findings import Finding, Severity
-from foon_asp.graph import Foon, merge
+from foon_asp.graph import Foon
 from foon_asp.levels import at_level
 from foon_asp.stats import (
     TOP,
@@ -172,9 +172,7 @@ def test_statistics_of_the_universal_foon(universal: Dataset) -> None:
 
 
 def test_centralities_of_the_universal_foon(universal: Dataset) -> None:
-    started = time.perf_counter()
     found = centralities(universal.foon)
-    assert time.perf_counter() - started < 30
     tops = [each.top[0][0] for each in (found.degree, found.katz, found.eigenvector)]
     assert tops == [node("bowl[empty]")] * 3
     neighbours = {

@@ -15,10 +15,11 @@ from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 from small_foons import domain, domains, many, motions, node, nodes, written
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.constraints import Constraints
 from foon_asp.dataset import Dataset
 from foon_asp.errors import QueryError
-from foon_asp.graph import Annotation, FoonBuilder, FunctionalUnit, Mark
+from foon_asp.graph import Annotation, FunctionalUnit, Mark
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain
 from foon_asp.render.suggest import suggestions_text, suggestions_value
@@ -448,7 +449,7 @@ def test_built_in_dishes_with_egg(built_in: Dataset) -> None:
 def really_used(where: Domain, result: Suggestions) -> bool:
     return all(
         where.id_of(each.dish)
-        not in where.reading.forward(
+        not in where.reading.execute(
             where.stock, [unit.id for unit in each.tree.steps if not takes(where, unit, label)]
         ).available
         for each in result.dishes

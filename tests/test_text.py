@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import Dataset, read_foon
 from foon_asp.errors import InputError
 from foon_asp.findings import Finding
-from foon_asp.graph import Foon, FoonBuilder, ObjectNode, Source, State, contains, inside
+from foon_asp.graph import Foon, ObjectNode, Source, State, contains, inside
 from foon_asp.text import TextReader, write_text
 
 UNIT_B = "//\nO\tonion\nS\twhole\nO\tknife\nM\tchop\nO\tonion\nS\tchopped\nO\tknife\n//\n"

@@ -12,8 +12,9 @@ from hypothesis import assume, event, given
 from hypothesis import strategies as st
 from small_foons import domain, many, node, queries
 
+from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import Dataset
-from foon_asp.graph import Annotation, FoonBuilder, ObjectNode
+from foon_asp.graph import Annotation, ObjectNode
 from foon_asp.kitchen import Kitchen
 from foon_asp.problem import Domain
 from foon_asp.render.trace import bound_text, trace_text, trace_value
