@@ -43,7 +43,20 @@ def facts(problem: Problem, *, rates_required: bool = False) -> str:
     With `rates_required` every unit must have a success rate, else `QueryError`. On level 1 the facts set
     the constant `labels_only` of `units.lp`, so that no caller can forget it.
     """
-    return "\n".join(_lines(problem, rates_required)) + "\n"
+    lines = [*_details(problem), *_rates(problem, required=rates_required), *_query(problem, problem.objects)]
+    return "\n".join(lines) + "\n"
+
+
+def read_facts(problem: Problem, *, rates: bool = False, rates_required: bool = False) -> str:
+    """Return fewer facts: the `needs/2` and `makes/2` that `units.lp` would derive of the others.
+
+    Nothing is said of labels and states, and of what the kitchen has anyway. Success rates are there if they
+    are asked for.
+    """
+    lines = _readings(problem)
+    if rates or rates_required:
+        lines += _rates(problem, required=rates_required)
+    return "\n".join([*lines, *_query(problem, problem.goals)]) + "\n"
 
 
 def names(problem: Problem) -> str:
@@ -69,28 +82,24 @@ def price_facts(
     return "\n".join(lines) + "\n"
 
 
-def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
+def _rates(problem: Problem, *, required: bool) -> Iterator[str]:
+    """Yield the success rates of units, and what each rate costs."""
     domain = problem.domain
-    if domain.labels_only:
-        yield "#const labels_only = 1. [override]"
-    labels: set[str] = set()
-    for number in problem.objects:
-        node = domain.node(number)
-        labels.update(node.named_labels)
-        yield _object_facts(number, node)
     rates: set[int] = set()
     for number in problem.units:
         unit = domain.foon.units[number]
-        yield _unit_facts(unit)
-        rate = (domain.kitchen.rate if rates_required else domain.kitchen.known_rate)(unit)
+        rate = (domain.kitchen.rate if required else domain.kitchen.known_rate)(unit)
         if rate is not None:
             rates.add(per_thousand(rate))
             yield f"success_rate({number},{per_thousand(rate)})."
     for rate in sorted(rates):
         yield f"failure_cost({rate},{failure_cost(rate)})."
-    for label in sorted(domain.kitchen.utensils & labels):
-        yield f"utensil({quote(label)})."
-    for number in problem.objects:
+
+
+def _query(problem: Problem, objects: Iterable[int]) -> Iterator[str]:
+    """Yield which of some objects are at hand, what is to be made, and under which constraints."""
+    domain = problem.domain
+    for number in objects:
         if number in domain.stock:
             yield f"kitchen({number})."
             if number in domain.quantities:
@@ -102,6 +111,33 @@ def _lines(problem: Problem, rates_required: bool) -> Iterator[str]:
             yield f"{kind}({quote(name)},{_constraint_value(kind, value)})."
         if not values:
             yield f'{kind}({quote(name)},"").'
+
+
+def _readings(problem: Problem) -> list[str]:
+    """Return what the units of a problem need and make besides the kitchen."""
+    reading, stock = problem.domain.reading, problem.domain.stock
+    lines = []
+    for unit in problem.units:
+        needs = [f"needs({unit},{thing})." for thing in reading.needs[unit] if thing not in stock]
+        makes = [f"makes({unit},{thing})." for thing in reading.makes[unit] if thing not in stock]
+        lines.append(" ".join([f"unit({unit}).", *needs, *makes]))
+    return lines
+
+
+def _details(problem: Problem) -> Iterator[str]:
+    """Yield all that is known of the objects and units of a problem."""
+    domain = problem.domain
+    if domain.labels_only:
+        yield "#const labels_only = 1. [override]"
+    labels: set[str] = set()
+    for number in problem.objects:
+        node = domain.node(number)
+        labels.update(node.named_labels)
+        yield _object_facts(number, node)
+    for number in problem.units:
+        yield _unit_facts(domain.foon.units[number])
+    for label in sorted(domain.kitchen.utensils & labels):
+        yield f"utensil({quote(label)})."
 
 
 def _constraint_value(kind: str, value: str | float) -> str:

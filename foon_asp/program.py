@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import posixpath
+import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
+from foon_asp import resources
 from foon_asp.constraints import FREE
 from foon_asp.criteria import Level, parse_by
 from foon_asp.errors import QueryError
-from foon_asp.facts import facts
+from foon_asp.facts import facts, read_facts
 from foon_asp.problem import Problem
 from foon_asp.solve import Answer, ProgramError, Solver
 
@@ -42,7 +46,13 @@ def solver(
             encodings = [*encodings, "criteria/depth.lp"]
             extra_facts += 'criterion("depth",-1).\n'
     human = constraints.human_steps is not None or "criteria/human.lp" in encodings
-    text = facts(problem, rates_required=rates_required) + extra_facts
+    looked_at = frozenset().union(*map(_looked_at, encodings))
+    if problem.whole or constraints.rules or looked_at & _DETAILS:
+        text = facts(problem, rates_required=rates_required)
+    else:
+        # A small question takes most of its time to be written and read.
+        text = read_facts(problem, rates="success_rate" in looked_at, rates_required=rates_required)
+    text += extra_facts
     try:
         return Solver(
             encodings, "\n".join([text, *constraints.rules]), constants, _SPLIT if human else OPTIMISE
@@ -53,6 +63,37 @@ def solver(
         lines = (line.strip() for line in str(error).splitlines())
         problems = " ".join(line.split(": ", 1)[-1] for line in lines if line)
         raise QueryError(f"the rules do not work: {problems}") from None
+
+
+_DETAILS = frozenset(
+    {
+        "input",
+        "output",
+        "object",
+        "label",
+        "state",
+        "relation",
+        "content",
+        "utensil",
+        "motion",
+        "start",
+        "end",
+    }
+)
+_COMMENT = re.compile(r"%\*.*?\*%|%[^\n]*", re.DOTALL)
+_INCLUDE = re.compile(r'#include "([^"]+)"')
+_PREDICATE = re.compile(r"\b([a-z_]+)\(")
+
+
+@lru_cache
+def _looked_at(encoding: str) -> frozenset[str]:
+    """Return the predicates in an encoding and those that it includes, but for the readings of units."""
+    if encoding in ("units.lp", "vocabulary.lp"):
+        return frozenset()
+    rules = _COMMENT.sub("", resources.encoding(encoding).read_text(encoding="utf-8"))
+    folder = posixpath.dirname(encoding)
+    included = (posixpath.normpath(posixpath.join(folder, name)) for name in _INCLUDE.findall(rules))
+    return frozenset(_PREDICATE.findall(rules)).union(*map(_looked_at, included))
 
 
 def all_levels(levels: Sequence[Level]) -> tuple[Level, ...]:

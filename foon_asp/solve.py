@@ -148,10 +148,10 @@ class Solver:
 
     def _run(self, on_model: Callable[[clingo.Model], bool | None], deadline: float | None) -> bool:
         """Solve until the deadline, and say whether nothing is left to search."""
+        if deadline is None:
+            return bool(self._control.solve(on_model=on_model).exhausted)
         with self._control.solve(on_model=on_model, async_=True) as handle:
-            if deadline is None:
-                handle.wait()
-            elif not handle.wait(max(0.0, deadline - time.monotonic())):
+            if not handle.wait(max(0.0, deadline - time.monotonic())):
                 handle.cancel()
             return bool(handle.get().exhausted)
 

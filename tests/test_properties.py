@@ -8,14 +8,16 @@ from math import isclose
 from typing import cast
 
 import brute_force
+import clingo
 import paper_pseudocode
 import pytest
 from hypothesis import event, given
 from hypothesis import strategies as st
 from small_foons import domain, domains, many, node, queries
 
+from foon_asp import resources
 from foon_asp.decode import column
-from foon_asp.facts import facts
+from foon_asp.facts import facts, read_facts
 from foon_asp.graph import ObjectNode
 from foon_asp.problem import Domain, Problem
 from foon_asp.retrieve import Retrieval, reach, retrieve
@@ -67,6 +69,36 @@ def test_reachability_is_the_plain_closure(domain: Domain) -> None:
     assert set(executable) == domain.closure.executable.keys() == done
     rounds = {domain.node(thing): turn for thing, turn in domain.closure.available.items()}
     assert rounds == at_hand
+
+
+@many(150)
+@given(queries(), st.booleans(), st.booleans())
+def test_fewer_facts_have_the_same_stable_models(query: Query, founded: bool, success: bool) -> None:
+    """The trees, and what each pays, are the same whether clingo reads the units or is told the readings."""
+    domain, goal = query
+    problem = domain.problem([goal], founded=founded)
+    criteria = ["units", "depth", *(["success"] if success else [])]
+    asked = "".join(f'criterion("{name}",{place}).' for place, name in enumerate(criteria))
+    constants = {"founded": int(founded), "strict": int(domain.strict), "horizon": len(domain.foon.units)}
+    given_all, given_less = (
+        stable_models(criteria, constants, text + asked)
+        for text in (facts(problem), read_facts(problem, rates=success))
+    )
+    assert given_all == given_less
+    event("some models" if given_all else "none")
+
+
+def stable_models(criteria: Sequence[str], constants: dict[str, int], text: str) -> set[frozenset[str]]:
+    """Return what all stable models say of use/1 and penalty/3."""
+    given_constants = [part for name, value in constants.items() for part in ("-c", f"{name}={value}")]
+    control = clingo.Control(["0", "--opt-mode=ignore", "--warn=no-file-included", *given_constants])
+    for name in ("task_tree.lp", *(f"criteria/{name}.lp" for name in criteria)):
+        control.load(str(resources.encoding(name)))
+    control.add("base", [], text + "#show penalty/3.")
+    control.ground([("base", [])])
+    found: set[frozenset[str]] = set()
+    control.solve(on_model=lambda model: found.add(frozenset(map(str, model.symbols(shown=True)))))
+    return found
 
 
 def solve_optimally(problem: Problem, by: Sequence[str]) -> Answer:
