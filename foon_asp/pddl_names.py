@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -106,6 +107,7 @@ class Names:
         return None if action in self.helpers else self.units[action]
 
 
+@dataclass(frozen=True, slots=True)
 class DomainNames:
     """Names of all objects and units of a domain; the same for every goal, style and semantics.
 
@@ -113,16 +115,28 @@ class DomainNames:
     an export needs beside these come from `namer`, last, so that they change none of the others.
     """
 
-    def __init__(self, domain: Domain) -> None:
-        self.namer = Namer()
-        count = len(domain.foon.objects) + len(domain.strangers)
-        self.objects = [
-            self.namer.name(str(domain.node(thing)).replace("*", " star "), "thing") for thing in range(count)
-        ]
-        self.units = [
-            self.namer.name(f"{plain(unit.motion, 'do')[: _LONGEST - 8]}-{unit.id}", "do")
-            for unit in domain.foon.units
-        ]
+    namer: Namer
+    objects: Sequence[str]
+    units: Sequence[str]
+
+    @classmethod
+    def of(cls, domain: Domain) -> DomainNames:
+        """Return the names of a domain, with a namer of their own."""
+        names = _named(domain)
+        return cls(names.namer.copy(), names.objects, names.units)
+
+
+@lru_cache(maxsize=1)
+def _named(domain: Domain) -> DomainNames:
+    """Name a domain once, for it takes longer than to export a goal."""
+    namer = Namer()
+    count = len(domain.foon.objects) + len(domain.strangers)
+    objects = [namer.name(str(domain.node(thing)).replace("*", " star "), "thing") for thing in range(count)]
+    units = [
+        namer.name(f"{plain(unit.motion, 'do')[: _LONGEST - 8]}-{unit.id}", "do")
+        for unit in domain.foon.units
+    ]
+    return DomainNames(namer, objects, units)
 
 
 def place(domain: Domain, unit: int) -> str:

@@ -124,7 +124,7 @@ class _Builder:
         made = {thing for unit in self.units for thing in effects.adds(unit)}
         self.mixed = self.counted.keys() & made
         self.at_hand = self.domain.stock.keys() - self.counted.keys()
-        self.naming = DomainNames(self.domain)
+        self.naming = DomainNames.of(self.domain)
 
     def task(self) -> Task:
         domain, effects = self.domain, self.effects
