@@ -143,6 +143,19 @@ def _parser() -> argparse.ArgumentParser:
     query.add_argument("--allow-script", action="store_true", help="let the file run code in #script")
     _format_option(query, "text", "json")
 
+    batch = _command(
+        subparsers, "batch", commands.run_batch, "answer a file of queries, here or on a cluster"
+    )
+    batch.add_argument("--queries", required=True, metavar="FILE", help="JSON lines: one query a line")
+    batch.add_argument("--out", required=True, metavar="FILE", help="results: .parquet, or else JSON lines")
+    batch.add_argument("--jobs", type=_positive, metavar="N", help="processes (default: one for each core)")
+    batch.add_argument("--scheduler", metavar="ADDRESS", help="run on a Dask cluster, tcp://host:8786")
+    batch.add_argument("--ship", action="store_true", help="send the data to the workers of the cluster")
+    batch.add_argument("--time-limit", type=_seconds, metavar="S", help="for queries that say none")
+    batch.add_argument("--timings", action="store_true", help="say in each result how long it took")
+    batch.add_argument("--overwrite", action="store_true", help="replace the results if they are there")
+    batch.add_argument("--progress", action="store_true", help="show a bar even if nobody looks on")
+
     plan = _command(subparsers, "plan", commands.run_plan, "plan with things being used up, by any engine")
     plan.add_argument("goal", nargs="+", metavar="GOAL", help=_GOAL_HELP)
     plan.add_argument(
@@ -257,6 +270,26 @@ def _parser() -> argparse.ArgumentParser:
     )
     merge.add_argument("files", nargs="+", metavar="FILE", help="FOON files of any format")
     merge.add_argument("-o", "--output", metavar="OUT", help="text file (default: standard output)")
+
+    compile_ = _command(
+        subparsers,
+        "compile",
+        commands.run_compile,
+        "compile FOON files into a store that opens quickly, however large",
+        kitchen=False,
+        planning=False,
+        level=False,
+    )
+    compile_.add_argument(
+        "files", nargs="+", metavar="FILE", help="FOON files of any format; several are merged"
+    )
+    compile_.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="KB.foon",
+        help="folder of the store; one that is there is replaced",
+    )
 
     goals = _command(subparsers, "goals", commands.run_goals, "list the goals of the data folder")
     _format_option(goals, "text", "json")

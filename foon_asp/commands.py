@@ -8,9 +8,10 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from dataclasses import replace
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,7 @@ from foon_asp.constraints import Constraints
 from foon_asp.convert import FORMATS, choose_format
 from foon_asp.dataset import Dataset, foon_files, load, read_foon
 from foon_asp.errors import InputError, QueryError, closest, counted
-from foon_asp.files import read_objects, read_utensils, write_atomically
+from foon_asp.files import is_store, read_objects, read_utensils, write_atomically
 from foon_asp.findings import Finding, Severity
 from foon_asp.goals import find_goal
 from foon_asp.graph import ObjectNode
@@ -29,8 +30,10 @@ from foon_asp.resources import built_in_data, diets
 
 if TYPE_CHECKING:
     from foon_asp.alternatives import Alternatives
+    from foon_asp.batch_file import Chunk
     from foon_asp.plan import Plan
     from foon_asp.retrieve import Retrieval
+    from foon_asp.workers import Rows
 
 FOUND, UNREACHABLE, BAD_INPUT, LIMIT = 0, 1, 2, 3
 """Exit statuses; an audit that is told to fail uses 1, too."""
@@ -79,7 +82,7 @@ def _warn_of_losses(findings: Sequence[Finding]) -> None:
 
 def _nearest(domain: Domain, node: ObjectNode) -> str:
     """Return the closest node, looking for the label first: that is quick and what people mistype."""
-    same_label = [str(other) for other in domain.foon.objects if other.label == node.label]
+    same_label = [str(other) for other in domain.foon.labelled(node.label)]
     if same_label:
         return closest(str(node), same_label, 1) or f"; there is {same_label[0]}"
     return closest(node.label, domain.foon.labels, 1)
@@ -618,6 +621,9 @@ def _fix(path: Path, target: Path) -> None:
     from foon_asp.mend import mend_text
     from foon_asp.open_foon import FoonReader, decode, is_json
 
+    if is_store(path):
+        warn(f"{path}: only text files can be repaired; repair the files that it was compiled from")
+        return
     data = read_bytes(path)
     text, encoding = decode(data, str(path))
     if is_json(text):
@@ -698,6 +704,24 @@ def _convert(sources: Sequence[Path], target: Path, options: argparse.Namespace)
     sys.stderr.write(f"foon-asp: {target}: {counted(len(files.foon.units), 'unit')} ({form.name})\n")
 
 
+def run_compile(options: argparse.Namespace) -> int:
+    """Write FOON files as a store that opens quickly."""
+    from foon_asp.store import write_store
+
+    sources = [Path(name) for name in options.files]
+    target = Path(options.output)
+    _refuse_overwriting([target], sources)
+    files = read_foon(sources, strict=options.strict_format)
+    _warn_of_losses(files.findings)
+    manifest = write_store(files, target, sources)
+    size = sum(table["bytes"] for table in manifest["tables"].values())
+    sys.stdout.write(
+        f"{target}: {counted(len(files.foon.units), 'unit')}, {counted(len(files.foon.objects), 'object')},"
+        f" {size / 1e6:.1f} MB\n"
+    )
+    return FOUND
+
+
 def run_merge(options: argparse.Namespace) -> int:
     """Merge FOON files into a universal FOON."""
     from foon_asp.levels import at_level
@@ -722,4 +746,62 @@ def run_merge(options: argparse.Namespace) -> int:
     else:
         write_atomically(Path(options.output), text)
         sys.stdout.write(f"{options.output}: {summary}")
+    return FOUND
+
+
+def run_batch(options: argparse.Namespace) -> int:
+    """Answer a file of queries."""
+    from foon_asp.batch import run_batch as run
+    from foon_asp.batch_file import QueryFile
+    from foon_asp.workers import Settings, Sources, answer_here, answer_in_processes, cores
+
+    if options.scheduler is not None and options.jobs is not None:
+        raise QueryError("--jobs counts processes of this machine; leave it out with --scheduler")
+    if options.ship and options.scheduler is None:
+        raise QueryError("--ship sends the data to the workers of --scheduler; name one")
+    if options.scheduler is not None and find_spec("distributed") is None:
+        raise QueryError("a cluster needs Dask: pip install 'foon-asp[cluster]'")
+    queries = QueryFile.scan(Path(options.queries))
+    sources = Sources.of(
+        options.data,
+        foon=options.foon,
+        kitchen=options.kitchen,
+        rates=options.rates,
+        utensils=options.utensils,
+        default_rate=options.default_rate,
+        strict_format=options.strict_format,
+        strict=options.strict,
+        level=options.level,
+    )
+    settings = Settings(options.time_limit, options.timings)
+    fingerprint = {
+        "version of foon-asp": version("foon-asp"),
+        "query file": queries.digest,
+        "data": sources.digest(),
+        "options": str(settings),
+    }
+
+    def answer(chunks: Iterator[Chunk]) -> Generator[Rows, None, None]:
+        if options.scheduler is not None:
+            from foon_asp.cluster import answer_on_cluster
+
+            return answer_on_cluster(sources, settings, chunks, options.scheduler, ship=options.ship)
+        jobs = options.jobs or cores()
+        if jobs == 1:
+            return answer_here(sources, settings, chunks)
+        return answer_in_processes(sources, settings, chunks, jobs)
+
+    try:
+        summary = run(
+            queries,
+            Path(options.out),
+            answer,
+            fingerprint,
+            overwrite=options.overwrite,
+            progress=sys.stderr if options.progress or sys.stderr.isatty() else None,
+        )
+    except KeyboardInterrupt:
+        sys.stderr.write("foon-asp: stopped; the same command goes on from here\n")
+        raise
+    sys.stderr.write(f"foon-asp: {options.out}: {summary}\n")
     return FOUND
