@@ -19,9 +19,9 @@ test: .venv/ready
 	$(BIN)/lint-imports
 	$(BIN)/pytest -n auto
 
-# Measure; see benchmarks/README.md.
+# Measure, and write benchmarks/RESULTS.md; see benchmarks/README.md.
 bench: .venv/ready
-	$(BIN)/python benchmarks/retrieval.py
+	$(BIN)/python benchmarks/run.py
 
 # Plan every public goal by several engines; prints the tables of docs/planning.md.
 planning: .venv/ready

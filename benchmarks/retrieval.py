@@ -21,7 +21,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import foon_asp
-from foon_asp.graph import FoonBuilder
+from foon_asp.builder import FoonBuilder
 from foon_asp.text import TextReader
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -1,0 +1,65 @@
+"""Run the benchmarks and write benchmarks/RESULTS.md.
+
+    python benchmarks/run.py [SECTION …] [--quick]
+
+Sections: growth, configurations, peers, report (the default is all of these), and peers-all: every object
+that can be made by every method, which takes hours. The report is always written at the end. `--quick`
+measures every section on a small scale, to see that it works.
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+
+SECTIONS = {
+    "growth": ["growth.py"],
+    "configurations": ["configurations.py"],
+    "peers": ["peers.py", "--goals", "25"],
+    "peers-all": [
+        "peers.py",
+        "--goals",
+        "all",
+        "--runs",
+        "1",
+        "--output",
+        str(HERE / "results" / "peers-all.json"),
+    ],
+}
+QUICK = {
+    "growth": ["--sizes", "1000", "--runs", "1"],
+    "configurations": ["--sample", "2", "--only", "bb", "usc,oll,stratify"],
+    "peers": ["--runs", "1", "--whole-runs", "0", "--everything-runs", "0"],
+    "peers-all": [],
+}
+USUAL = ("peers", "configurations", "growth")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Run the benchmarks and write benchmarks/RESULTS.md.")
+    parser.add_argument("sections", nargs="*", metavar="SECTION", help=", ".join([*SECTIONS, "report"]))
+    parser.add_argument("--quick", action="store_true", help="on a small scale, to see that it works")
+    options = parser.parse_args()
+    sections = options.sections or list(USUAL)
+    unknown = [name for name in sections if name not in SECTIONS and name != "report"]
+    if unknown:
+        parser.error(f"unknown section {unknown[0]!r}; there are {', '.join([*SECTIONS, 'report'])}")
+    worst = 0
+    for name in [*(name for name in sections if name != "report"), "report"]:
+        arguments = SECTIONS.get(name, ["report.py"]) + (QUICK.get(name, []) if options.quick else [])
+        begun = time.perf_counter()
+        status = subprocess.run(
+            [sys.executable, str(HERE / arguments[0]), *arguments[1:]], check=False
+        ).returncode
+        print(f"{name}: {time.perf_counter() - begun:.0f} s, exit status {status}", flush=True)
+        worst = max(worst, abs(status))
+    return worst
+
+
+if __name__ == "__main__":
+    sys.exit(main())
