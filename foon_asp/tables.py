@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -74,8 +75,9 @@ class StateTable(_Table[State]):
     @classmethod
     def of(cls, states: Collection[State]) -> StateTable:
         """Return the table of some states, which are all different."""
-        codes: dict[str, int] = {}
-        columns = _state_columns(states, lambda word: codes.setdefault(word, len(codes)))
+        codes: defaultdict[str, int] = defaultdict()
+        codes.default_factory = codes.__len__
+        columns = _state_columns(states, codes.__getitem__)
         return cls(list(codes), *columns)
 
     def __len__(self) -> int:
