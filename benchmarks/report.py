@@ -2,7 +2,8 @@
 
     python benchmarks/report.py [--results DIR] [--output FILE.md]
 
-Reads growth.json, peers.json and configurations.json; what is not there is left out, and said to be missing.
+Reads peers.json, configurations.json, growth.json and throughput.json; what is not there is left out, and
+said to be missing.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from configurations import Configurations
 from growth import Growth, Size
 from machine import RESULTS
 from peer_results import MENU, Peers
+from throughput import Throughput
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt
@@ -47,6 +49,7 @@ def write(results: Path, output: Path) -> None:
     growth = _read(Growth.read, results / "growth.json")
     peers = _read(Peers.read, results / "peers.json")
     configurations = _read(Configurations.read, results / "configurations.json")
+    throughput = _read(Throughput.read, results / "throughput.json")
     lines = [
         "# Results",
         "",
@@ -55,6 +58,7 @@ def write(results: Path, output: Path) -> None:
         "",
         *_what_must_hold(growth, peers),
         *(_growth(growth, plots) if growth else _missing("Growth", "growth.py")),
+        *(_throughput(throughput) if throughput else _missing("Many queries", "throughput.py")),
         *(_peers(peers, plots) if peers else _missing("Peers", "peers.py")),
         *(
             _configurations(configurations)
@@ -461,6 +465,33 @@ def _plot_peers(peers: Peers, path: Path) -> None:
     axes.set(yscale="log", xlabel=f"goals, by the time of {ours}", ylabel="time to the proven tree (ms)")
     axes.legend(fontsize=9)
     _save(figure, path)
+
+
+# Many queries.
+
+
+def _throughput(found: Throughput) -> Iterator[str]:
+    yield from ("## Many queries", "")
+    yield (
+        "`foon-asp batch`, whole processes, one run each. The start, with opening the data in each process, "
+        f"is taken off the rate. {found.machine}. Command: `{found.command}`."
+    )
+    yield ""
+    rows = (
+        (
+            each.data,
+            f"{each.units:,}",
+            f"{each.queries:,}",
+            each.jobs,
+            seconds(each.start),
+            seconds(each.seconds),
+            f"{each.each_job:.1f}",
+            _memory(each.peak),
+        )
+        for each in found.rates
+    )
+    head = ("FOON", "units", "queries", "processes", "start", "whole run", "queries/s and process", "peak")
+    yield from _table(head, rows)
 
 
 # Solver configurations.

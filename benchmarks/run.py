@@ -2,9 +2,9 @@
 
     python benchmarks/run.py [SECTION …] [--quick]
 
-Sections: growth, configurations, peers, report (the default is all of these), and peers-all: every object
-that can be made by every method, which takes hours. The report is always written at the end. `--quick`
-measures every section on a small scale, to see that it works.
+Sections: peers, configurations, growth, throughput, report (the default: all of these), and peers-all: every
+object that can be made by every method, once. The report is always written at the end. `--quick` measures
+every section on a small scale, to see that it works.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ HERE = Path(__file__).resolve().parent
 
 SECTIONS = {
     "growth": ["growth.py"],
+    "throughput": ["throughput.py"],
     "configurations": ["configurations.py"],
     "peers": ["peers.py", "--goals", "25"],
     "peers-all": [
@@ -33,11 +34,12 @@ SECTIONS = {
 }
 QUICK = {
     "growth": ["--sizes", "1000", "--runs", "1"],
+    "throughput": ["--units", "1000"],
     "configurations": ["--sample", "2", "--only", "bb", "usc,oll,stratify"],
     "peers": ["--runs", "1", "--whole-runs", "0", "--everything-runs", "0"],
     "peers-all": [],
 }
-USUAL = ("peers", "configurations", "growth")
+USUAL = ("peers", "configurations", "growth", "throughput")
 
 
 def main() -> int:

@@ -48,12 +48,18 @@ class Rows(Sequence[Ids]):
             return [self[each] for each in range(len(self))[place]]
         if place < 0:
             place += len(self)
+            if place < 0:
+                raise IndexError(place - len(self))
         return tuple(self._numbers[self._begins[place] : self._begins[place + 1]])
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sequence) and list(self) == list(other)
 
     __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[type[Rows], tuple[Places, Numbers]]:
+        # Memoryviews cannot be copied to another process.
+        return Rows, (self.offsets, self.values)
 
     @property
     def lengths(self) -> Places:
@@ -116,6 +122,9 @@ class Rounds(Mapping[int, int]):
     def __init__(self, rounds: Numbers) -> None:
         self.rounds = rounds
         self._numbers = memoryview(cast(Any, rounds))
+
+    def __reduce__(self) -> tuple[type[Rounds], tuple[Numbers]]:
+        return Rounds, (self.rounds,)
 
     def __getitem__(self, number: int) -> int:
         if 0 <= number < len(self._numbers) and self._numbers[number] >= 0:

@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
+from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
 from typing import BinaryIO, NoReturn, TextIO
@@ -25,7 +26,10 @@ from foon_asp.render.batch import parquet_schema, parquet_table, row_start
 from foon_asp.workers import Rows
 
 CHUNK = 16
-"""How many queries a worker is given at a time."""
+"""How many queries a worker is given at a time, if there are many."""
+
+_SHARES = 4
+"""Into how many chunks the queries of each process are split at least, so that all end together."""
 
 _SYNCED = 1.0
 """Seconds after which further rows make sure that all are on the disk, whatever happens to the machine."""
@@ -60,6 +64,11 @@ class Summary:
         return f"{total} {'query' if total == 1 else 'queries'}: {counts}{resumed}; {rate:.1f} queries/s"
 
 
+def chunk_size(queries: int, jobs: int) -> int:
+    """Return how many queries a worker is given at a time."""
+    return max(1, min(CHUNK, queries // (_SHARES * jobs)))
+
+
 def run_batch(
     queries: QueryFile,
     out: Path,
@@ -73,11 +82,14 @@ def run_batch(
     """Answer all queries of a file, and write a row for each to `out`: JSON lines, or Parquet by its suffix.
 
     Rows go to `OUT.partial` first; if that is there, of a run with the same fingerprint, the run goes on
-    where it stopped. Raises `InputError` if the output cannot be written or belongs to something else.
+    where it stopped. The fingerprint names what answers depend on beside the queries and the version of the
+    program: the data and the settings. Raises `InputError` if the output cannot be written or belongs to
+    something else.
     """
     started = time.monotonic()
+    own = {"version of foon-asp": version("foon-asp"), "query file": queries.digest}
     out = _checked(out, queries.path, overwrite=overwrite)
-    with Journal(out.with_name(out.name + ".partial"), fingerprint, queries.lines) as journal:
+    with Journal(out.with_name(out.name + ".partial"), own | fingerprint, queries.lines) as journal:
         resumed = len(journal)
         if resumed < queries.queries:
             chunks = queries.chunks(chunk, journal.__contains__)

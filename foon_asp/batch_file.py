@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,7 +42,9 @@ class QueryFile:
 
     @classmethod
     def scan(cls, path: Path) -> QueryFile:
-        """Read a file once from end to end; raise `InputError` if it cannot be read or asks nothing."""
+        """Read a file from end to end; raise `InputError` if it cannot be read twice, or asks nothing."""
+        if os.path.exists(path) and not os.path.isfile(path):  # noqa: PTH110, PTH113 - Path's raise on long names
+            raise InputError(path, None, "this is no regular file", "save the queries in one")
         digest = hashlib.sha256()
         lines = queries = 0
         for line in _raw_lines(path):
@@ -54,15 +57,26 @@ class QueryFile:
         return cls(path, lines, queries, digest.hexdigest())
 
     def chunks(self, size: int, done: Callable[[int], bool]) -> Iterator[Chunk]:
-        """Yield the queries that are not done, in order, at most `size` at a time."""
+        """Yield the queries that are not done, in order, at most `size` at a time.
+
+        Raises `InputError` if the file is not what it was when it was scanned.
+        """
+        digest = hashlib.sha256()
         chunk: list[Line] = []
+        number = 0
         for number, line in enumerate(_raw_lines(self.path), 1):
+            if number > self.lines:
+                break
+            digest.update(line)
             text = _said(number, line)
             if text and not done(number):
                 chunk.append((number, text))
                 if len(chunk) == size:
                     yield tuple(chunk)
                     chunk = []
+        if number != self.lines or digest.hexdigest() != self.digest:
+            advice = "remove the journal of the run, and run the command again"
+            raise InputError(self.path, None, "the query file was changed during the run", advice)
         if chunk:
             yield tuple(chunk)
 
@@ -121,6 +135,8 @@ def _refuse_constant(name: str) -> NoReturn:
 def query_id(value: dict[str, Any]) -> str | int | float | None:
     """Return the id of a query; raise `QueryError` if it is neither text nor number."""
     given = value.get("id")
+    if isinstance(given, float) and not math.isfinite(given):
+        raise QueryError("'id' is a number that is too large")
     if given is None or (isinstance(given, str | int | float) and not isinstance(given, bool)):
         return given
     raise QueryError(f"'id' is a text or a number, not {kind_of(given)}")

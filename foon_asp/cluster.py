@@ -38,6 +38,9 @@ _AHEAD = 2
 _REFUSALS = 100
 """How often workers may lack data that were sent: some join while they are on the way."""
 
+_ON_THE_WAY, _MOMENT = 600.0, 0.05
+"""Seconds that a query waits for the data to be written where it is, and after which it looks again."""
+
 _COUNTED = 2.0
 """Seconds after which the workers are counted again: they come and go."""
 
@@ -182,12 +185,12 @@ class FoonData(WorkerPlugin):
         self._settings = settings
         self._digest = digest
         self._files = files
+        self._version = version("foon-asp")
         self._folder: Path | None = None
         self._lock: Any = None
         self._desk: Desk | None = None
 
     def setup(self, worker: Worker) -> None:
-        self._lock = threading.Lock()
         if self._files:
             self._folder = Path(worker.local_directory) / self.name
             for name, data in self._files.items():
@@ -196,6 +199,8 @@ class FoonData(WorkerPlugin):
                 path.write_bytes(data)
             self._sources = _moved(self._sources, self._folder)
             self._files = {}
+        # Last of all: queries may come while this is going on, and wait for the lock to be there.
+        self._lock = threading.Lock()
 
     def teardown(self, worker: Worker) -> None:  # noqa: ARG002 - the interface of Dask
         if self._folder is not None:
@@ -203,6 +208,13 @@ class FoonData(WorkerPlugin):
 
     def desk(self) -> Desk:
         """Return the opened data; raise `DataElsewhereError` or `DataUnreadableError`."""
+        patience = time.monotonic() + _ON_THE_WAY
+        while self._lock is None:
+            if time.monotonic() > patience:
+                raise DataElsewhereError("the data are still on their way")
+            time.sleep(_MOMENT)
+        if _version() != self._version:
+            raise DataUnreadableError(f"it has foon-asp {_version()}, not {self._version}")
         with self._lock:
             if self._desk is None:
                 self._check()
@@ -262,27 +274,29 @@ def _answer(name: str, chunk: Chunk) -> Rows:
 
 def _answers(client: Client, address: str, data: _Delivery, queue: TaskQueue) -> Iterator[Rows]:
     """Give out chunks, a few for each worker, and yield what comes back."""
-    running: dict[Future[Any], Task] = {}
+    running: dict[Future[Any], tuple[Task, bool]] = {}
     finished = as_completed(loop=client.loop)
     crew = _Crew(client)
     refusals = 0
 
     def give_out(task: Task) -> None:
         future = client.submit(_answer, data.name, task.chunk, pure=False)
-        running[future] = task
+        running[future] = task, data.shipped
         finished.add(future)
 
     while True:
         while len(running) < crew.room():
-            # One suspect at a time: if a worker dies of it, nothing else is to blame.
-            task = queue.next(suspects=not any(each.suspect for each in running.values()))
-            if task is None:
+            # A suspect is alone on the cluster: if a worker dies of it, nothing else is to blame.
+            if running and (queue.suspects or any(task.suspect for task, _ in running.values())):
                 break
-            give_out(task)
+            next_task = queue.next()
+            if next_task is None:
+                break
+            give_out(next_task)
         if not running:
             return
         future = next(finished)
-        task = running.pop(future)
+        task, was_shipped = running.pop(future)
         if future.cancelled() or client.status != "running":
             raise _lost(address)
         error = future.exception() if future.status == "error" else None
@@ -293,10 +307,13 @@ def _answers(client: Client, address: str, data: _Delivery, queue: TaskQueue) ->
                 yield [died(line) for line in task.chunk]
             else:
                 queue.suspect(task.chunk)
-        elif isinstance(error, DataElsewhereError) and refusals < _REFUSALS:
-            refusals += 1
+        elif isinstance(error, DataElsewhereError) and not was_shipped:
+            # Others that were given out before say the same.
             if not data.shipped:
                 data.ship()
+            give_out(task)
+        elif isinstance(error, DataElsewhereError) and refusals < _REFUSALS:
+            refusals += 1
             give_out(task)
         else:
             raise QueryError(f"a worker cannot answer: {error}")

@@ -751,6 +751,7 @@ def run_merge(options: argparse.Namespace) -> int:
 
 def run_batch(options: argparse.Namespace) -> int:
     """Answer a file of queries."""
+    from foon_asp.batch import chunk_size
     from foon_asp.batch import run_batch as run
     from foon_asp.batch_file import QueryFile
     from foon_asp.workers import Settings, Sources, answer_here, answer_in_processes, cores
@@ -774,21 +775,17 @@ def run_batch(options: argparse.Namespace) -> int:
         level=options.level,
     )
     settings = Settings(options.time_limit, options.timings)
-    fingerprint = {
-        "version of foon-asp": version("foon-asp"),
-        "query file": queries.digest,
-        "data": sources.digest(),
-        "options": str(settings),
-    }
+    jobs = min(options.jobs or cores(), queries.queries)
+    fingerprint = {"data": sources.digest(), "options": str(settings)}
 
     def answer(chunks: Iterator[Chunk]) -> Generator[Rows, None, None]:
         if options.scheduler is not None:
             from foon_asp.cluster import answer_on_cluster
 
             return answer_on_cluster(sources, settings, chunks, options.scheduler, ship=options.ship)
-        jobs = options.jobs or cores()
-        if jobs == 1:
+        if options.jobs == 1:
             return answer_here(sources, settings, chunks)
+        # In a process of its own even on a single core: a query that takes all memory must not end the run.
         return answer_in_processes(sources, settings, chunks, jobs)
 
     try:
@@ -797,6 +794,7 @@ def run_batch(options: argparse.Namespace) -> int:
             Path(options.out),
             answer,
             fingerprint,
+            chunk=chunk_size(queries.queries, jobs),
             overwrite=options.overwrite,
             progress=sys.stderr if options.progress or sys.stderr.isatty() else None,
         )

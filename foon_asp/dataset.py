@@ -58,11 +58,11 @@ def foon_files(folder: Path) -> list[Path]:
 
     A store is a folder itself, that of the FOON alone.
     """
-    if is_store(folder):
-        return [folder]
     for universal in (folder / "FOON.txt", folder / "FOON.json", folder / "FOON.foon"):
         if universal.exists():
             return [universal]
+    if is_store(folder):
+        return [folder]
     return sorted(path for path in folder.glob("*.txt") if path.name not in _BESIDE_A_FOON)
 
 

@@ -276,9 +276,7 @@ def shrunk(problem: Problem, things: Sequence[int], same_dish: Collection[int]) 
 
 def _stocked(domain: Domain, things: Iterable[int]) -> Domain:
     """Return a domain whose kitchen has some more objects."""
-    objects = (*domain.kitchen.objects, *map(domain.node, things))
-    kitchen = replace(domain.kitchen, objects=objects)
-    return Domain(domain.foon, kitchen, strict=domain.strict, level=domain.level)
+    return domain.with_stock((*domain.kitchen.objects, *map(domain.node, things)))
 
 
 class Pantry:

@@ -6,6 +6,7 @@ And what all readers of FOONs share: what they return, and how a compiled store 
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
@@ -36,11 +37,23 @@ class FoonFiles:
     units_reported: int
 
 
+STORE_FORMAT = "foon-asp store"
+
+
 def is_store(path: Path) -> bool:
     """Tell whether a path is meant as a compiled store: a folder that is named or filled like one."""
-    return path.is_dir() and (
-        path.suffix == ".foon" or (path / MANIFEST).exists() or (path / "units.parquet").exists()
+    # Path.is_dir raises for names that are too long.
+    return os.path.isdir(path) and (  # noqa: PTH112
+        path.suffix == ".foon" or has_store_manifest(path) or (path / "units.parquet").exists()
     )
+
+
+def has_store_manifest(folder: Path) -> bool:
+    """Tell whether the manifest of a folder says that it is a store; other programs have manifests, too."""
+    try:
+        return f'"format": "{STORE_FORMAT}"'.encode() in (folder / MANIFEST).read_bytes()[:200]
+    except OSError:
+        return False
 
 
 def read_bytes(path: Path) -> bytes:

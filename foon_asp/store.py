@@ -11,7 +11,8 @@ import json
 import mmap
 import os
 import shutil
-from collections.abc import Iterable, Mapping
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
@@ -21,10 +22,17 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from foon_asp.errors import InputError
-from foon_asp.files import MANIFEST, FoonFiles, is_store, parse_json, read_string
+from foon_asp.files import (
+    MANIFEST,
+    STORE_FORMAT,
+    FoonFiles,
+    has_store_manifest,
+    is_store,
+    parse_json,
+    read_string,
+)
 from foon_asp.store_tables import SCHEMAS, from_tables, to_tables
 
-FORMAT = "foon-asp store"
 VERSION = 1
 
 _COMPILE_AGAIN = "compile it again: foon-asp compile FOON.txt -o KB.foon"
@@ -36,20 +44,47 @@ def write_store(files: FoonFiles, folder: Path, sources: Iterable[Path]) -> dict
     `sources` are the files that the FOON was read from. The store is there whole or, whatever happens, as it
     was before. Raises `InputError`.
     """
-    folder = Path(os.path.realpath(folder))
-    if folder.exists() and not is_store(folder):
-        raise InputError(folder, None, "this is there already, and no store", "name another folder")
-    unfinished = folder.with_name(f".{folder.name}.{os.getpid()}.part")
+    target = Path(os.path.realpath(folder))
+    sources = list(sources)
     try:
-        unfinished.mkdir(parents=True)
+        _check_target(folder, target, sources)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent))
         try:
             manifest = _write_tables(files, unfinished, [_source(path) for path in sources])
-            _replace(folder, unfinished)
+            unfinished.chmod(0o777 & ~_umask())
+            _replace(target, unfinished)
         finally:
             shutil.rmtree(unfinished, ignore_errors=True)
     except OSError as error:
         raise InputError(folder, None, f"cannot be written ({error.strerror})") from None
+    except UnicodeEncodeError:
+        raise InputError(folder, None, "a source has a name that is not UTF-8", "rename it") from None
     return manifest
+
+
+def _check_target(folder: Path, target: Path, sources: Sequence[Path]) -> None:
+    """Raise `InputError` if a store at this place would replace anything but a store, or an input."""
+    if not target.exists():
+        return
+    if not target.is_dir():
+        raise InputError(folder, None, "this is there already, and no store", "name another folder")
+    there = {path.name for path in target.iterdir()}
+    others = sorted(there - {MANIFEST, *(f"{name}.parquet" for name in SCHEMAS)})
+    if others or (there == {MANIFEST} and not has_store_manifest(target)):
+        found = others[0] if others else MANIFEST
+        problem = f"this folder is there already, with {found!r} in it, which no store has"
+        raise InputError(folder, None, problem, "name another folder")
+    for source in sources:
+        if target in (Path(os.path.realpath(source)), *Path(os.path.realpath(source)).parents):
+            raise InputError(folder, None, f"this would replace the input {source}", "name another folder")
+
+
+def _umask() -> int:
+    """Return the permissions that new files do not get: temporary folders have hardly any."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
 
 
 def _write_tables(files: FoonFiles, folder: Path, sources: list[dict[str, Any]]) -> dict[str, Any]:
@@ -61,7 +96,7 @@ def _write_tables(files: FoonFiles, folder: Path, sources: list[dict[str, Any]])
         _sync(path)
         tables[name] = {"file": path.name, "rows": len(table), **_digest(path)}
     manifest = {
-        "format": FORMAT,
+        "format": STORE_FORMAT,
         "version": VERSION,
         "program": f"foon-asp {version('foon-asp')}",
         "units_read": files.units_read,
@@ -77,9 +112,14 @@ def _write_tables(files: FoonFiles, folder: Path, sources: list[dict[str, Any]])
 
 
 def _replace(folder: Path, unfinished: Path) -> None:
-    """Put a finished store where it belongs. What was there is kept until then, and nobody sees a half."""
+    """Put a finished store where it belongs, in the place of what is there.
+
+    A folder cannot take the place of another one at once. Between two renames there is none; whoever stops
+    the program in that instant finds the old one beside, as `.NAME….old`.
+    """
     if not folder.exists():
         unfinished.rename(folder)
+        _sync(folder.parent)
         return
     before = unfinished.with_suffix(".old")
     folder.rename(before)
@@ -88,6 +128,7 @@ def _replace(folder: Path, unfinished: Path) -> None:
     except OSError:
         before.rename(folder)
         raise
+    _sync(folder.parent)
     shutil.rmtree(before, ignore_errors=True)
 
 
@@ -116,7 +157,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     if not path.exists():
         raise _damaged(folder, f"{MANIFEST} is missing")
     manifest = parse_json(read_string(path), path)
-    if not isinstance(manifest, dict) or manifest.get("format") != FORMAT:
+    if not isinstance(manifest, dict) or manifest.get("format") != STORE_FORMAT:
         raise InputError(path, None, "this does not describe a store of foon-asp", _COMPILE_AGAIN)
     if manifest.get("version") != VERSION:
         raise InputError(
@@ -165,6 +206,10 @@ def _seal(manifest: Mapping[str, Any]) -> str:
 
 
 def _sync(path: Path) -> None:
-    """Wait until a file is on disk: it must not be named before it is there."""
-    with suppress(OSError), path.open("rb") as file:
-        os.fsync(file.fileno())
+    """Wait until a file, or the names in a folder, are on disk: nothing must be named before it is there."""
+    with suppress(OSError):
+        number = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(number)
+        finally:
+            os.close(number)

@@ -30,7 +30,6 @@ from foon_asp.unit_syntax import (
 
 Dialect = Literal["A", "B"]
 
-_END_OF_UNIT = re.compile(r"^//.*\n?", re.MULTILINE)
 _START = r"(?:[OM]\d*(?:[\t ]|$)|#)"
 _BLOCK = re.compile(rf"^{_START}.*\n?(?:(?!{_START}).*\n|(?!{_START}).+\Z)*", re.MULTILINE)
 _HEAD = re.compile(r"[OSM]\d*(?:[\t ]+|$)")
@@ -104,19 +103,18 @@ class TextReader:
         line = 1
         start = 0
         while start < len(text):
-            end = _END_OF_UNIT.search(text, start)
-            stop = end.start() if end else len(text)
+            stop, after = _end_of_unit(text, start)
             chunk = text[start:stop]
             found = bool(chunk) and self._read_unit(chunk, line)
-            if end is None and found:
+            if stop == after and found:
                 last = line + chunk.count("\n") - chunk.endswith("\n")
                 mend = "write '//' below it"
                 self._report(last, "unit-not-closed", "the last unit is not closed by '//'", mend)
             line += chunk.count("\n")
-            if end is not None and (not found or len(end[0]) > len("//\n")):
-                self._check_end(end[0], line, found, doubled=start > 0 and not chunk.strip())
+            if stop < after and (not found or after - stop > len("//\n")):
+                self._check_end(text[stop:after], line, found, doubled=start > 0 and not chunk.strip())
             line += 1
-            start = end.end() if end else len(text)
+            start = after
 
     def _plain(self, text: str) -> str:
         """Return the text with newlines only, without byte order marks and control characters."""
@@ -281,6 +279,17 @@ class TextReader:
         for code, message in motion.oddities:
             self._report(line, code, message, _row_mend(row, code))
         return motion
+
+
+def _end_of_unit(text: str, start: int) -> tuple[int, int]:
+    """Return where the next `//` line begins and where the one behind it; twice the end if there is none."""
+    stop = start
+    if not text.startswith("//", start):
+        before = text.find("\n//", start)
+        if before < 0:
+            return len(text), len(text)
+        stop = before + 1
+    return stop, text.find("\n", stop) + 1 or len(text)
 
 
 def _read_motion(row: str) -> _Motion:

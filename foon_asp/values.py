@@ -26,6 +26,10 @@ class State:
     def __hash__(self) -> int:
         return self._hash
 
+    def __reduce__(self) -> tuple[type[State], tuple[str, str | None, tuple[str, ...] | None]]:
+        # The hash of a text is another one in another process.
+        return State, (self.name, self.relatum, self.contents)
+
     @property
     def plain(self) -> bool:
         return self.relatum is None and self.contents is None

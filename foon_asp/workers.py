@@ -21,7 +21,7 @@ from foon_asp.batch_file import Chunk, Line, Named, Query, query_id, read_line, 
 from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import Dataset, foon_files, load
 from foon_asp.errors import FoonError, InternalError, QueryError, closest
-from foon_asp.files import is_store, read_bytes
+from foon_asp.files import MANIFEST, is_store, read_bytes
 from foon_asp.goals import find_goal
 from foon_asp.graph import ObjectNode
 from foon_asp.levels import FULL
@@ -156,7 +156,7 @@ def _absolute(path: str | None) -> str | None:
 
 
 def _hash(path: Path) -> str:
-    return hashlib.sha256(read_bytes(path / "manifest.json" if is_store(path) else path)).hexdigest()
+    return hashlib.sha256(read_bytes(path / MANIFEST if is_store(path) else path)).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -360,9 +360,14 @@ class TaskQueue:
         self._chunks = iter(chunks)
         self._suspects: deque[Task] = deque()
 
-    def next(self, *, suspects: bool = True) -> Task | None:
-        """Return a task, or None if there is none; without `suspects` only a whole chunk."""
-        if suspects and self._suspects:
+    @property
+    def suspects(self) -> bool:
+        """Whether a suspect waits."""
+        return bool(self._suspects)
+
+    def next(self) -> Task | None:
+        """Return a task, or None if there is none."""
+        if self._suspects:
             return self._suspects.popleft()
         chunk = next(self._chunks, None)
         return None if chunk is None else Task(chunk)

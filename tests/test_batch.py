@@ -22,8 +22,11 @@ from conftest import ROOT
 from jsonschema import Draft202012Validator
 from test_cli import run, run_json
 
+from foon_asp.batch import chunk_size, run_batch
+from foon_asp.batch_file import Chunk, QueryFile
 from foon_asp.dataset import Dataset
 from foon_asp.errors import InputError
+from foon_asp.render.batch import row_bytes, row_value
 from foon_asp.workers import DIED
 
 Query = dict[str, Any] | str
@@ -145,8 +148,9 @@ def test_goals_kitchens_methods_and_constraints(
         ({"goal": "ice", "remove": ["unicorn"]}, "nothing of the kitchen can be removed by this name"),
         ({"goal": "ice", "remove": [{"label": "sugra"}]}, "the kitchen has no sugra to remove"),
         ({"goal": "\udcff"}, "no object has this label"),
+        ('{"goal": "ice", "id": 1e999}', "'id' is a number that is too large"),
     ],
-    ids=range(24),
+    ids=range(25),
 )
 def test_a_wrong_query_is_one_error_row(
     query: Query, message: str, batch: Callable[..., list[dict[str, Any]]]
@@ -299,7 +303,9 @@ def test_files_that_will_not_do(tmp_path: Path, capsys: pytest.CaptureFixture[st
     new = tmp_path / "new.jsonl"
     cases: list[tuple[list[object], str]] = [
         ([tmp_path / "no.jsonl", new], "no such file"),
-        ([tmp_path, new], "cannot be read (Is a directory)"),
+        ([tmp_path, new], "this is no regular file; save the queries in one"),
+        (["/dev/null", new], "this is no regular file; save the queries in one"),
+        ([queries, new, "--foon", "x" * 300], "cannot be read (File name too long)"),
         ([empty, new], "there is no query in this file"),
         ([queries, there], "this file is there already; name another one, or add --overwrite"),
         ([queries, tmp_path], "this is no regular file"),
@@ -319,6 +325,30 @@ def test_files_that_will_not_do(tmp_path: Path, capsys: pytest.CaptureFixture[st
         assert message in err
     assert there.read_text(encoding="utf-8") == "mine"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["empty.jsonl", "q.jsonl", "there.jsonl"]
+
+
+def test_queries_that_change_during_the_run(tmp_path: Path) -> None:
+    """No row is lost, and no other query answered, where a file grows, shrinks or is edited."""
+    path = write_queries(tmp_path / "q.jsonl", [{"goal": "ice"}] * 4)
+    written = path.read_text()
+    for text in (written * 2, written[:40], written.replace("ice", "tea", 1)):
+        path.write_text(written)
+        file = QueryFile.scan(path)
+        out = tmp_path / "o.jsonl"
+
+        def answer(chunks: Iterator[Chunk], text: str = text) -> Iterator[list[bytes]]:
+            path.write_text(text)
+            for chunk in chunks:
+                yield [row_bytes(row_value(line, None, "tried", timings=False)) for line, _ in chunk]
+
+        with pytest.raises(InputError, match="the query file was changed during the run"):
+            run_batch(file, out, answer, {}, chunk=1)  # type: ignore[arg-type]
+        assert not out.exists()
+        (tmp_path / "o.jsonl.partial").unlink(missing_ok=True)
+
+
+def test_few_queries_are_shared_by_all_processes() -> None:
+    assert [chunk_size(queries, 2) for queries in (1, 8, 16, 40, 1000)] == [1, 1, 2, 5, 16]
 
 
 def test_a_journal_of_something_else_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

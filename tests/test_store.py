@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import shutil
 import signal
 import subprocess
@@ -179,10 +180,47 @@ def test_compile_replaces_stores_only(tmp_path: Path, capsys: pytest.CaptureFixt
     (tmp_path / "papers").mkdir()
     (tmp_path / "papers" / "thesis.tex").write_text("years of work")
     assert main(["compile", str(BUILT_IN), "-o", str(tmp_path / "papers")]) == 2
-    assert "no store" in capsys.readouterr().err
+    assert "'thesis.tex' in it, which no store has" in capsys.readouterr().err
+    (tmp_path / "web").mkdir()
+    (tmp_path / "web" / "manifest.json").write_text('{"name": "web app"}')
+    assert main(["compile", str(BUILT_IN), "-o", str(tmp_path / "web")]) == 2
+    assert "'manifest.json' in it, which no store has" in capsys.readouterr().err
     assert main(["compile", str(BUILT_IN), "-o", str(BUILT_IN)]) == 2
     assert "replace an input" in capsys.readouterr().err
     assert (tmp_path / "papers" / "thesis.tex").read_text() == "years of work"
+
+
+def test_a_store_with_files_of_others_is_not_replaced(
+    store: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (store / "kitchen.json").write_text('[{"label": "egg"}]')
+    assert main(["compile", str(BUILT_IN), "-o", str(store)]) == 2
+    assert "'kitchen.json' in it, which no store has" in capsys.readouterr().err
+    assert load(store).kitchen.objects == (ObjectNode("egg"),)
+
+
+def test_an_empty_folder_becomes_a_store(tmp_path: Path) -> None:
+    (tmp_path / "kb.foon").mkdir()
+    assert main(["compile", str(BUILT_IN), "-o", str(tmp_path / "kb.foon")]) == 0
+    assert open_store(tmp_path / "kb.foon").foon == load().foon
+
+
+def test_a_manifest_of_something_else_makes_no_store(tmp_path: Path) -> None:
+    shutil.copy(BUILT_IN, tmp_path)
+    (tmp_path / "manifest.json").write_text('{"name": "web app"}')
+    assert load(tmp_path).foon.objects == load().foon.objects
+
+
+def test_values_and_tables_go_to_other_processes(store: Path) -> None:
+    """What multiprocessing sends there is found in sets there: the hash of a text is another one."""
+    domain = load(foon=[store]).domain()
+    assert domain.closure is not None
+    code = (
+        "import pickle, sys; node, domain = pickle.load(sys.stdin.buffer);"
+        "assert node in set(domain.kitchen.objects); assert domain.id_of(node) in domain.closure.available"
+    )
+    sent = pickle.dumps((domain.kitchen.objects[0], domain))
+    subprocess.run([sys.executable, "-c", code], input=sent, check=True)
 
 
 def test_a_store_does_not_replace_itself(store: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -95,7 +95,7 @@ def _flat(row: bytes) -> dict[str, Any]:
     name = value["id"]
     flat = {
         "line": value["line"],
-        "id": name if name is None or isinstance(name, str) else json.dumps(name),
+        "id": None if name is None else _writable(name if isinstance(name, str) else json.dumps(name)),
         "status": value["status"],
         "result": row.decode("utf-8"),
     }
