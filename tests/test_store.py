@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import re
 import shutil
 import signal
 import subprocess
@@ -377,3 +378,31 @@ def test_a_store_that_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot be written"):
         write_store(files, tmp_path / "file" / "kb.foon", [])
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+PAGE = (ROOT / "docs" / "scale.md").read_text(encoding="utf-8")
+
+
+def test_the_page_names_all_tables_and_columns() -> None:
+    rows = [row for row in PAGE.splitlines() if row.startswith("| `")]
+    for name, schema in SCHEMAS.items():
+        (row,) = [row for row in rows if f"`{name}`" in row.split("|")[1]]
+        named = re.findall(r"`(\w+)`", row.split("|")[3])
+        assert [column for column in named if column in schema.names] == schema.names, name
+
+
+def test_the_queries_of_the_page(
+    public_data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["compile", str(public_data / "universal" / "FOON.txt"), "-o", "kb.foon"]) == 0
+    (query,) = re.findall(r"```sql\n(.*?)```", PAGE, re.DOTALL)
+    told = ", ".join(f"{label} {uses}" for label, uses in duckdb.execute(query).fetchall())
+    assert told == "bowl 811, cooking pan 296, cutting board 279"
+    assert f"this gives {' and '.join(told.rsplit(', ', 1))}." in PAGE
+    (script,) = [text for text in re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL) if "pandas" in text]
+    printed = subprocess.run(
+        [sys.executable, "-c", script], check=True, capture_output=True, text=True
+    ).stdout
+    assert [row.split()[0] for row in printed.splitlines()[1:4]] == ["pour", "pick-and-place", "sprinkle"]
+    assert capsys.readouterr().out.startswith("kb.foon: 2376 units")
