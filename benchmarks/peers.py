@@ -183,7 +183,8 @@ def run(options: argparse.Namespace, asked: dict[str, Any]) -> int:
     quarrels = [*tally.disagreements, *_everything_agrees(said, tally, there)]
     result = Peers(
         asked["machine"],
-        f"python benchmarks/peers.py --goals {options.goals} --runs {options.runs}",
+        f"python benchmarks/peers.py --goals {options.goals} --runs {options.runs}"
+        + (f" --methods {' '.join(options.methods)}" if options.methods else ""),
         options.goals,
         len(there),
         len(asked["makeable"]),

@@ -47,7 +47,7 @@ def write(results: Path, output: Path) -> None:
     _style()
     growth = _read(Growth.read, results / "growth.json")
     peers = _read(Peers.read, results / "peers.json")
-    peers_all = _read(Peers.read, results / "peers-all.json")
+    more_peers = [_read(Peers.read, results / f"peers-{which}.json") for which in ("all", "sample")]
     configurations = _read(Configurations.read, results / "configurations.json")
     throughput = _read(Throughput.read, results / "throughput.json")
     lines = [
@@ -60,7 +60,7 @@ def write(results: Path, output: Path) -> None:
         *(_growth(growth, plots) if growth else _missing("Growth", "growth.py")),
         *(_throughput(throughput) if throughput else _missing("Many queries", "throughput.py")),
         *(_peers(peers, plots) if peers else _missing("Peers", "peers.py")),
-        *(_peers_all(peers_all) if peers_all else ()),
+        *(line for each in more_peers if each for line in _more_peers(each)),
         *(
             _configurations(configurations)
             if configurations
@@ -394,8 +394,7 @@ def _peers(peers: Peers, plots: Path) -> Iterator[str]:
     if peers.greedy:
         yield "The heuristics of the paper, on the goals that can be made:"
         yield ""
-        head = ("heuristic", "executable", "optimal", "too small", "mean excess", "largest", "median", "max")
-        yield from _table(head, (_greedy_row(each) for each in peers.greedy))
+        yield from _table(_GREEDY, (_greedy_row(each) for each in peers.greedy))
     if peers.everything:
         yield "Every object that can be made, proven by clingo in one process:"
         yield ""
@@ -416,14 +415,18 @@ def _peers(peers: Peers, plots: Path) -> Iterator[str]:
     _plot_peers(peers, plots / "peers.png")
 
 
-def _peers_all(peers: Peers) -> Iterator[str]:
-    yield from ("## Peers on all objects", "")
+def _more_peers(peers: Peers) -> Iterator[str]:
+    """Yield the same of all objects that can be made, or of some evenly spread among them."""
+    every = "all" if peers.asked == peers.makeable else "every 30th of the"
+    yield from (f"## Peers on {peers.asked:,} objects", "")
     yield (
-        f"The same for all {peers.asked:,} objects that the kitchen can make and does not have: one run, one "
-        f"process for each method. {peers.machine}. Command: `{peers.command}`."
+        f"The same for {every} {peers.makeable:,} objects that the kitchen can make and does not have, "
+        f"{peers.runs} run. {peers.machine}. Command: `{peers.command}`."
     )
     yield ""
     yield from _table(_METHODS, (_method_row(each) for each in peers.methods))
+    if peers.greedy:
+        yield from _table(_GREEDY, (_greedy_row(each) for each in peers.greedy))
     if peers.disagreements:
         yield from (f"- Disagreement: {each}" for each in peers.disagreements)
         yield ""
@@ -440,6 +443,9 @@ _METHODS = (
     "whole process",
     "peak",
 )
+
+
+_GREEDY = ("heuristic", "executable", "optimal", "too small", "mean excess", "largest", "median", "max")
 
 
 def _method_row(each: Any) -> list[str]:

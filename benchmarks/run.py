@@ -2,9 +2,10 @@
 
     python benchmarks/run.py [SECTION …] [--quick]
 
-Sections: peers, configurations, growth, throughput, report (the default: all of these), and peers-all: every
-object that can be made by every method, once. The report is always written at the end. `--quick` measures
-every section on a small scale, to see that it works.
+Sections: peers (the 25 public goals), peers-sample (every 30th object that can be made), peers-all (all of
+them, by the methods that take milliseconds), configurations, growth, throughput, report; the default is all
+of these. The report is always written at the end. `--quick` measures every section on a small scale, to see
+that it works.
 """
 
 from __future__ import annotations
@@ -17,29 +18,30 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 
+
+def _more_peers(goals: str, *options: str) -> list[str]:
+    out = str(HERE / "results" / f"peers-{goals}.json")
+    once = ["--runs", "1", "--whole-runs", "0", "--everything-runs", "0"]
+    return ["peers.py", "--goals", goals, *once, *options, "--output", out]
+
+
 SECTIONS = {
     "growth": ["growth.py"],
     "throughput": ["throughput.py"],
     "configurations": ["configurations.py"],
     "peers": ["peers.py", "--goals", "25"],
-    "peers-all": [
-        "peers.py",
-        "--goals",
-        "all",
-        "--runs",
-        "1",
-        "--output",
-        str(HERE / "results" / "peers-all.json"),
-    ],
+    "peers-sample": _more_peers("sample"),
+    "peers-all": _more_peers("all", "--methods", "clingo", "cp-sat", "integer-program"),
 }
 QUICK = {
     "growth": ["--sizes", "1000", "--runs", "1"],
     "throughput": ["--units", "1000"],
     "configurations": ["--sample", "2", "--only", "bb", "usc,oll,stratify"],
     "peers": ["--runs", "1", "--whole-runs", "0", "--everything-runs", "0"],
-    "peers-all": [],
+    "peers-sample": ["--methods", "clingo", "cp-sat"],
+    "peers-all": ["--methods", "clingo"],
 }
-USUAL = ("peers", "configurations", "growth", "throughput")
+USUAL = ("peers", "peers-sample", "peers-all", "configurations", "growth", "throughput")
 
 
 def main() -> int:

@@ -148,7 +148,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     batch.add_argument("--queries", required=True, metavar="FILE", help="JSON lines: one query a line")
     batch.add_argument("--out", required=True, metavar="FILE", help="results: .parquet, or else JSON lines")
-    batch.add_argument("--jobs", type=_positive, metavar="N", help="processes (default: one for each core); 1: in this one")
+    batch.add_argument(
+        "--jobs", type=_positive, metavar="N", help="processes (default: one for each core); 1: in this one"
+    )
     batch.add_argument("--scheduler", metavar="ADDRESS", help="run on a Dask cluster, tcp://host:8786")
     batch.add_argument("--ship", action="store_true", help="send the data to the workers of the cluster")
     batch.add_argument("--time-limit", type=_seconds, metavar="S", help="for queries that say none")
@@ -323,7 +325,9 @@ def _command(
         data.add_argument(
             "--data", metavar="DIR", help="folder with FOON.txt (or subgraphs), kitchen.json, …"
         )
-        data.add_argument("--foon", nargs="+", default=[], metavar="FILE", help="FOON files or stores to merge")
+        data.add_argument(
+            "--foon", nargs="+", default=[], metavar="FILE", help="FOON files or stores to merge"
+        )
         data.add_argument("--kitchen", metavar="FILE", help="objects at hand, a JSON list")
         data.add_argument("--rates", metavar="FILE", help="success rates, lines of motion<tab>rate")
         data.add_argument("--utensils", metavar="FILE", help="utensil labels, one a line")
