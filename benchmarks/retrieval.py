@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import platform
 import statistics
 import subprocess
 import sys
@@ -17,15 +16,13 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib.metadata import version
-from pathlib import Path
+
+from machine import DATA, Machine
 
 import foon_asp
 from foon_asp.builder import FoonBuilder
 from foon_asp.text import TextReader
 
-ROOT = Path(__file__).resolve().parent.parent
-DATA = Path(os.environ.get("FOON_PUBLIC_DATA", ROOT.parent / "shared" / "foon")) / "universal"
 GOAL = "cheese pizza"
 REPEATS = 5
 
@@ -106,18 +103,6 @@ def warm_retrieval() -> Row:
     return Row(f"retrieve one goal, each of {len(medians)} (median of {REPEATS})", tuple(medians))
 
 
-def machine() -> str:
-    """Say what the figures were measured on."""
-    parts = [
-        f"{os.cpu_count()} cores",
-        f"{platform.system()} {platform.machine()}",
-        f"Python {platform.python_version()}",
-        f"clingo {version('clingo')}",
-        f"foon-asp {version('foon-asp')}",
-    ]
-    return ", ".join(parts)
-
-
 def main() -> int:
     options = argparse.ArgumentParser(description="Measure retrieval and the audit on the public data.")
     options.add_argument("--runs", type=int, default=7, help="runs of each measurement (default: 7)")
@@ -142,7 +127,7 @@ def main() -> int:
     print("|---|---:|---:|---:|---:|---:|")
     for row in rows:
         print(row.markdown())
-    print(f"\nMachine: {machine()}.")
+    print(f"\nMachine: {Machine.here()}.")
     print(f"Command: `python benchmarks/retrieval.py --runs {runs}`")
     return 0
 

@@ -21,9 +21,8 @@ from foon_asp.dataset import Dataset, foon_files, load, read_foon
 from foon_asp.errors import InputError, QueryError, closest, counted
 from foon_asp.files import is_store, read_objects, read_utensils, write_atomically
 from foon_asp.findings import Finding, Severity
-from foon_asp.goals import find_goal
+from foon_asp.goals import find_on_level
 from foon_asp.graph import ObjectNode
-from foon_asp.levels import FULL
 from foon_asp.problem import Domain, Problem
 from foon_asp.render.json import dumps
 from foon_asp.resources import built_in_data, diets
@@ -105,12 +104,7 @@ def _find_goals(
 
 def _find_goal(options: argparse.Namespace, dataset: Dataset, domain: Domain, text: str) -> ObjectNode:
     """Return the goal that a text names on the level of the domain, or else on the full level."""
-    try:
-        return find_goal(domain, text, [domain.project(goal) for goal in dataset.goals])
-    except QueryError:
-        if domain.level == FULL:
-            raise
-        return domain.project(find_goal(dataset.domain(strict=options.strict), text, dataset.goals))
+    return find_on_level(domain, text, dataset.goals, lambda: dataset.domain(strict=options.strict))
 
 
 def _constraints(options: argparse.Namespace) -> Constraints:

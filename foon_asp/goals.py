@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from foon_asp.errors import QueryError, closest
 from foon_asp.graph import ObjectNode
+from foon_asp.levels import FULL
 from foon_asp.problem import Domain
 from foon_asp.state_syntax import PLACES
 
@@ -91,6 +92,23 @@ def find_goal(domain: Domain, text: str, preferred: Iterable[ObjectNode] = ()) -
         if fitting:
             raise QueryError(f"ambiguous goal {text!r}: {_listed(fitting)}")
     raise QueryError(f"unknown goal {text!r}; with this label there is {_listed(same_label)}")
+
+
+def find_on_level(
+    domain: Domain, text: str, goals: Iterable[ObjectNode], full: Callable[[], Domain]
+) -> ObjectNode:
+    """Return the goal that a text names on the level of the domain, or else on the full level, projected.
+
+    `goals` are those of the data folder, on the full level, of which `full` returns the domain. Raises
+    `QueryError`.
+    """
+    goals = list(goals)
+    try:
+        return find_goal(domain, text, [domain.project(goal) for goal in goals])
+    except QueryError:
+        if domain.level == FULL:
+            raise
+        return domain.project(find_goal(full(), text, goals))
 
 
 def _narrower(fitting: list[ObjectNode], preferred: Iterable[ObjectNode]) -> Iterator[list[ObjectNode]]:

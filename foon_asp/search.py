@@ -26,29 +26,29 @@ def fixpoint(needs: Rows, users: Rows, makes: Rows, kitchen: Iterable[int]) -> t
     executable = np.full(len(needs), -1, dtype=np.int32)
     missing = needs.lengths.astype(np.int32)
     available[stock] = 0
-    wide = _Wide(users, makes, available, executable, missing)
-    narrow = _Narrow(users, makes, available, executable, missing)
+    rounds = _Rounds(users, makes, available, executable, missing)
     fresh: Any = np.unique(stock[stock < known])
     ready: Any = np.flatnonzero(missing == 0)
     depth = 1
     while len(fresh) or len(ready):
-        step = wide if len(fresh) + len(ready) >= _WIDE else narrow
-        fresh = step.round(fresh, ready, depth)
+        step = rounds.wide if len(fresh) + len(ready) >= _WIDE else rounds.narrow
+        fresh = step(fresh, ready, depth)
         ready = ()
         depth += 1
     return available, executable
 
 
-class _Wide:
-    """A round on whole arrays."""
+class _Rounds:
+    """The rounds of a search, each on whole arrays or on single numbers in the same arrays."""
 
     def __init__(
         self, users: Rows, makes: Rows, available: Numbers, executable: Numbers, missing: Numbers
     ) -> None:
         self._users, self._makes = users, makes
         self._available, self._executable, self._missing = available, executable, missing
+        self._numbers = [memoryview(cast(Any, each)) for each in (available, executable, missing)]
 
-    def round(self, fresh: Any, ready: Any, depth: int) -> Numbers:
+    def wide(self, fresh: Any, ready: Any, depth: int) -> Any:
         """Execute the units that are ready, or become so by what is fresh. Return what is new by them."""
         units, times = np.unique(self._users.gather(np.asarray(fresh, dtype=np.int64)), return_counts=True)
         self._missing[units] -= times.astype(np.int32)
@@ -59,20 +59,9 @@ class _Wide:
         self._available[new] = depth
         return new
 
-
-class _Narrow:
-    """The same on single numbers, in the same arrays."""
-
-    def __init__(
-        self, users: Rows, makes: Rows, available: Numbers, executable: Numbers, missing: Numbers
-    ) -> None:
-        self._users, self._makes = users, makes
-        self._available = memoryview(cast(Any, available))
-        self._executable = memoryview(cast(Any, executable))
-        self._missing = memoryview(cast(Any, missing))
-
-    def round(self, fresh: Any, ready: Any, depth: int) -> list[int]:
-        available, missing = self._available, self._missing
+    def narrow(self, fresh: Any, ready: Any, depth: int) -> Any:
+        """Do the same one by one."""
+        available, executable, missing = self._numbers
         done = [int(unit) for unit in ready]
         for thing in fresh:
             for unit in self._users[thing]:
@@ -81,7 +70,7 @@ class _Narrow:
                     done.append(unit)
         new: list[int] = []
         for unit in done:
-            self._executable[unit] = depth
+            executable[unit] = depth
             for thing in self._makes[unit]:
                 if available[thing] < 0:
                     available[thing] = depth

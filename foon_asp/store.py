@@ -14,6 +14,7 @@ import shutil
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -147,7 +148,7 @@ def open_store(folder: Path) -> FoonFiles:
     except (ValueError, pa.ArrowException) as error:
         raise _damaged(folder, str(error)) from None
     read = manifest["units_read"]
-    foon = type(foon)(foon.objects, foon.units, read - len(foon.units))
+    foon = replace(foon, duplicates=read - len(foon.units))
     return FoonFiles(foon, tuple(findings), read, manifest["units_reported"])
 
 

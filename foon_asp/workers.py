@@ -22,7 +22,7 @@ from foon_asp.builder import FoonBuilder
 from foon_asp.dataset import Dataset, foon_files, load
 from foon_asp.errors import FoonError, InternalError, QueryError, closest
 from foon_asp.files import MANIFEST, is_store, read_bytes
-from foon_asp.goals import find_goal
+from foon_asp.goals import find_on_level
 from foon_asp.graph import ObjectNode
 from foon_asp.levels import FULL
 from foon_asp.problem import Domain
@@ -172,7 +172,6 @@ class _View:
 
     def __init__(self, domain: Domain, dataset: Dataset) -> None:
         self.domain = domain
-        self._preferred = [domain.project(goal) for goal in dataset.goals]
         self._dataset = dataset
         self._found: dict[str, ObjectNode] = {}
 
@@ -184,18 +183,12 @@ class _View:
         if node is None:
             if len(self._found) >= _GOALS:
                 self._found.clear()
-            node = self._found[named] = self._find(named)
+            node = find_on_level(self.domain, named, self._dataset.goals, self._full)
+            self._found[named] = node
         return node
 
-    def _find(self, text: str) -> ObjectNode:
-        domain = self.domain
-        try:
-            return find_goal(domain, text, self._preferred)
-        except QueryError:
-            if domain.level == FULL:
-                raise
-            full = self._dataset.domain(strict=domain.strict)
-            return domain.project(find_goal(full, text, self._dataset.goals))
+    def _full(self) -> Domain:
+        return self._dataset.domain(strict=self.domain.strict)
 
 
 class Desk:
