@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo test bench planning clean
+.PHONY: demo quick test schemas drill bench planning clean
 
 # Show the main job on the built-in data.
 demo: .venv/ready
@@ -18,6 +18,19 @@ test: .venv/ready
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/pytest -n auto
+
+# Write docs/schema from what the program declares.
+schemas: .venv/ready
+	$(BIN)/python -m foon_asp.cli.schemas docs/schema
+
+# Run the tests that take no solver and no other process.
+quick: .venv/ready
+	$(BIN)/pytest -q tests/unit
+
+# Hostile inputs, damaged stores, kills, full disks: five minutes, or N times that; see docs/reliability.md.
+N ?= 1
+drill: .venv/ready
+	PYTHONPATH=tests $(BIN)/python -m drill --times $(N)
 
 # Measure, and write benchmarks/RESULTS.md; see benchmarks/README.md.
 bench: .venv/ready

@@ -31,14 +31,17 @@ from pathlib import Path
 
 from machine import DATA, RESULTS, Machine
 
-import foon_asp
-from foon_asp.constraints import FREE, Constraints
-from foon_asp.criteria import parse_by
-from foon_asp.facts import facts
-from foon_asp.graph import ObjectNode
-from foon_asp.problem import Domain, Problem
-from foon_asp.program import OPTIMISE, all_levels
-from foon_asp.solve import Solver
+from foon_asp.asp.facts import facts
+from foon_asp.asp.program import OPTIMISE
+from foon_asp.asp.solver import Solver, open_solver
+from foon_asp.io.folder import load
+from foon_asp.limits import limited
+from foon_asp.model.node import ObjectNode
+from foon_asp.model.world import World
+from foon_asp.query.constraints import FREE, Constraints
+from foon_asp.query.objective import Objective
+from foon_asp.query.problem import Problem
+from foon_asp.query.tariff import success_tariff
 
 GENERATED = 100_000
 
@@ -49,7 +52,7 @@ CONFIGURATIONS: dict[str, tuple[str, ...]] = {
     "bb,inc": ("--opt-strategy=bb,inc",),
     "bb,dec": ("--opt-strategy=bb,dec",),
     "bb, sign and model": (_BB, "--opt-heuristic=sign,model"),
-    "bb, domain heuristic": (_BB, "--heuristic=Domain", "--dom-mod=false,opt"),
+    "bb, domain heuristic": (_BB, "--heuristic=World", "--dom-mod=false,opt"),
     "usc,oll": ("--opt-strategy=usc,oll",),
     "usc,one": ("--opt-strategy=usc,one",),
     "usc,k": ("--opt-strategy=usc,k",),
@@ -74,7 +77,7 @@ class Question:
     """What is asked: goals over a domain, under constraints, by criteria, and for how long at most."""
 
     name: str
-    domain: Domain
+    world: World
     goals: tuple[ObjectNode, ...]
     by: str
     constraints: Constraints
@@ -123,41 +126,41 @@ PRESENT = {"human": "bb, sign and model"}
 
 def solver(question: Question, options: Sequence[str]) -> Solver:
     """Return the solver of a question as `foon_asp.program` builds it, with options of our own."""
-    ids = tuple(map(question.domain.id_of, question.goals))
-    problem = Problem(question.domain, ids, constraints=question.constraints)
-    levels = all_levels(parse_by(question.by))
-    names = [name for level in levels for name in level.names]
-    encodings = ["task_tree.lp", *(f"criteria/{name}.lp" for name in names)]
+    ids = tuple(map(question.world.id_of, question.goals))
+    problem = Problem(question.world, ids, constraints=question.constraints)
+    objective = Objective.parse(question.by).complete
+    names = [name for criterion in objective for name in criterion.names]
+    encodings = ["retrieval/task_tree.lp", *(f"criteria/{name}.lp" for name in names)]
     if question.constraints != FREE:
-        encodings.append("constraints.lp")
-    text = facts(problem, rates_required="success" in names)
+        encodings.append("constraints/constraints.lp")
+    text = facts(problem, success_tariff(problem) if "success" in names else None)
     for place, name in enumerate(names):
         text += f'criterion("{name}",{len(names) - place}).\npenalty("{name}","base",1).\n'
-    rounds = question.domain.closure.available
+    rounds = question.world.closure.available
     horizon = max(rounds.get(goal, 1) for goal in ids)
     constants: dict[str, str | int] = {"founded": 1, "strict": 0, "horizon": horizon}
-    return Solver(encodings, text, constants, options)
+    return open_solver(encodings, text, constants, options)
 
 
 def questions(folder: Path, sample: int, limit: float, generated: Path) -> Iterator[Question]:
     """Yield what is asked."""
-    data = foon_asp.load(folder)
-    domain = data.domain()
-    closure = domain.closure.available
-    goals = tuple(goal for goal in data.goals if domain.id_of(goal) in closure)
-    others = sorted(number for number in closure if number not in domain.stock)
+    data = load(folder)
+    world = data.world()
+    closure = world.closure.available
+    goals = tuple(goal for goal in data.goals if world.id_of(goal) in closure)
+    others = sorted(number for number in closure if number not in world.stock)
     spread = [others[len(others) * place // sample] for place in range(sample)]
-    for goal in (*goals, *(domain.node(number) for number in spread)):
-        yield Question("units", domain, (goal,), "units", FREE, limit)
+    for goal in (*goals, *(world.node(number) for number in spread)):
+        yield Question("units", world, (goal,), "units", FREE, limit)
     for goal in goals:
-        yield Question("success", domain, (goal,), "success", FREE, limit)
+        yield Question("success", world, (goal,), "success", FREE, limit)
     for goal in goals:
-        yield Question("human", domain, (goal,), "success", Constraints(human_steps=3), limit)
-    yield Question("menu", domain, goals, "units", FREE, 5 * limit)
-    large = foon_asp.load(generated)
-    domain = large.domain()
+        yield Question("human", world, (goal,), "success", Constraints(human_steps=3), limit)
+    yield Question("menu", world, goals, "units", FREE, 5 * limit)
+    large = load(generated)
+    world = large.world()
     for goal in large.goals[:: max(1, len(large.goals) // sample)][:sample]:
-        yield Question("units, generated", domain, (goal,), "units", FREE, limit)
+        yield Question("units, generated", world, (goal,), "units", FREE, limit)
 
 
 def measure(asked: Sequence[Question], names: Sequence[str]) -> Iterator[tuple[str, str, float, bool]]:
@@ -168,7 +171,8 @@ def measure(asked: Sequence[Question], names: Sequence[str]) -> Iterator[tuple[s
         for name in (*names[turn:], *names[:turn]):
             control = solver(question, CONFIGURATIONS[name])
             begun = time.perf_counter()
-            answer = control.best(time.monotonic() + question.limit)
+            with limited(question.limit):
+                answer = control.best()
             seconds = min(time.perf_counter() - begun, question.limit)
             if answer.proven:
                 optima.setdefault(answer.costs, name)

@@ -34,19 +34,19 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ortools.sat.python import cp_model
-from proof import Proof, Slice, Stopwatch, loaded_problem
+from proof import Proof, Slice, Stopwatch, posed
 
-from foon_asp.graph import ObjectNode
-from foon_asp.problem import Domain
-from foon_asp.tree import TaskTree
+from foon_asp.model.node import ObjectId, ObjectNode, UnitId
+from foon_asp.model.world import World
+from foon_asp.retrieval.tree import TaskTree
 
 
-def solve(domain: Domain, goal: ObjectNode, limit: float) -> Proof:
+def solve(world: World, goal: ObjectNode, limit: float, *, reduced: bool = False) -> Proof:
     """Find a least task tree, or prove within `limit` seconds that there is none."""
     watch = Stopwatch()
-    problem = loaded_problem(domain, goal)
-    if problem is None:
-        return watch.proof("unreachable")
+    problem = posed(watch, world, goal, reduced=reduced)
+    if isinstance(problem, Proof):
+        return problem
     model = Model.of(Slice.of(problem))
     watch.lap("build")
     solver = _solver(limit)
@@ -55,7 +55,7 @@ def solve(domain: Domain, goal: ObjectNode, limit: float) -> Proof:
     values = solver.response_proto.solution if found else ()
     units = [unit for unit, variable in model.units.items() if found and values[variable]]
     watch.lap("solve")
-    tree = TaskTree.of(domain, problem.goals, units) if found else None
+    tree = TaskTree.of(world, problem.goals, units) if found else None
     watch.lap("replay")
     words = {cp_model.OPTIMAL: "optimal", cp_model.INFEASIBLE: "unreachable"}
     return watch.proof(words.get(status, "limit"), tree)
@@ -78,7 +78,7 @@ class Model:
     """The constraint program, and the number of the variable of each unit."""
 
     model: cp_model.CpModel
-    units: dict[int, int]
+    units: dict[UnitId, int]
 
     @classmethod
     def of(cls, part: Slice) -> Model:
@@ -124,14 +124,14 @@ class _Builder:
         self._count += 1
         return self._count - 1
 
-    def _maker(self, thing: int) -> int:
+    def _maker(self, thing: ObjectId) -> int:
         """Return the variable that says that an object is made: that of its only maker, where it has one."""
         units = self.part.makers[thing]
         if thing not in self.part.circles and len(units) == 1:
             return self.use[next(iter(units))]
         return self._variable(1)
 
-    def _way(self, thing: int, unit: int) -> int:
+    def _way(self, thing: ObjectId, unit: UnitId) -> int:
         """Return the literal that a unit makes an object after all that it needs of the same circle."""
         before = self.part.before(thing, unit)
         if not before:

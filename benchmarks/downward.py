@@ -15,16 +15,17 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from proof import Proof, Stopwatch
+from proof import Proof, Stopwatch, posed
 
-from foon_asp.criteria import Level
-from foon_asp.effects import Effects
-from foon_asp.graph import ObjectNode
-from foon_asp.pddl_document import Document, document
-from foon_asp.pddl_task import planning_task
-from foon_asp.pddl_text import domain_text, problem_text
-from foon_asp.problem import Domain, Problem
-from foon_asp.tree import TaskTree
+from foon_asp.model.consumption import Effects
+from foon_asp.model.node import ObjectNode
+from foon_asp.model.world import World
+from foon_asp.planning.pddl.styles import Document, document
+from foon_asp.planning.pddl.task import planning_task
+from foon_asp.planning.pddl.write import domain_text, problem_text
+from foon_asp.query.objective import Criterion
+from foon_asp.query.problem import Problem
+from foon_asp.retrieval.tree import TaskTree
 
 LMCUT = "astar(lmcut())"
 
@@ -46,11 +47,15 @@ def installed() -> bool:
     return find_spec("up_fast_downward") is not None and _search_program().exists()
 
 
-def solve(domain: Domain, goal: ObjectNode, limit: float, search: str = LMCUT) -> Proof:
+def solve(
+    world: World, goal: ObjectNode, limit: float, search: str = LMCUT, *, reduced: bool = False
+) -> Proof:
     """Find a cheapest plan, and so a least task tree, or prove within `limit` seconds that there is none."""
     watch = Stopwatch()
     deadline = time.monotonic() + limit
-    problem = domain.problem([goal])
+    problem = posed(watch, world, goal, reduced=True) if reduced else Problem.of(world, [goal])
+    if isinstance(problem, Proof):
+        return problem
     with TemporaryDirectory(prefix="foon-asp-") as name:
         folder = Path(name)
         written = write(problem, folder)
@@ -67,14 +72,14 @@ def solve(domain: Domain, goal: ObjectNode, limit: float, search: str = LMCUT) -
         plan = (folder / "plan").read_text(encoding="utf-8")
     names = written.task.names
     units = [names.unit_of(line.strip("() ")) for line in plan.splitlines() if not line.startswith(";")]
-    tree = TaskTree.of(domain, problem.goals, [unit for unit in units if unit is not None])
+    tree = TaskTree.of(world, problem.goals, [unit for unit in units if unit is not None])
     watch.lap("replay")
     return watch.proof("optimal", tree)
 
 
 def write(problem: Problem, folder: Path) -> Document:
     """Write domain.pddl and problem.pddl, in which nothing is ever deleted, and each unit costs 1."""
-    task = planning_task(problem, Effects(problem.domain, "add"), Level.parse("units"))
+    task = planning_task(problem, Effects(problem.world, "add"), Criterion.parse("units"))
     written = document(task, "objects")
     (folder / "domain.pddl").write_text(domain_text(written), encoding="utf-8")
     (folder / "problem.pddl").write_text(problem_text(written), encoding="utf-8")

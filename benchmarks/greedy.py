@@ -11,22 +11,22 @@ from pathlib import Path
 
 from proof import Proof, Stopwatch
 
-from foon_asp.graph import ObjectNode
-from foon_asp.problem import Domain
-from foon_asp.tree import TaskTree
+from foon_asp.model.node import ObjectNode
+from foon_asp.model.world import World
+from foon_asp.retrieval.tree import TaskTree
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "tests"))
 
-import paper_pseudocode
+from support import paper_pseudocode
 
 HEURISTICS = ("success", "inputs", "first")
 
 
-def solve(domain: Domain, goal: ObjectNode, heuristic: str = "success") -> Proof:
+def solve(world: World, goal: ObjectNode, heuristic: str = "success") -> Proof:
     """Retrieve a set of units; it is `found` even where no order of it can be executed."""
     watch = Stopwatch()
-    units = paper_pseudocode.retrieve(domain, goal, heuristic)
+    units = paper_pseudocode.retrieve(world, goal, heuristic)
     watch.lap("search")
-    tree = TaskTree.of(domain, [domain.id_of(goal)], units)
+    tree = TaskTree.of(world, [world.id_of(goal)], units)
     watch.lap("replay")
     return watch.proof("found", tree)

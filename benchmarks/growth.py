@@ -5,21 +5,21 @@
 FOONs come from generate.py, each size and family from one seed; the public universal FOON is measured
 beside them where it is there. Every run of a stage is a process of its own: `parse` reads the text, `compile`
 is the whole command, `open` opens the store, then brings it together with its kitchen (`domain`: kitchen and
-readings) and computes the forward closure. `query` opens the store and asks for each of the 100 goals, warm:
-the backward slice, the facts, loading and grounding, solving (by units, to the proof), and decoding with the
-replay; and then the same as one call of `foon_asp.retrieve`. A goal whose slice has more than --most-units is
-not asked, nor are goals once --budget seconds are over (`chain` and `dense`: a fifth of that): they are asked
-in a shuffled order, and the results say how many were.
+readings) and computes the forward closure. `query` opens the store and asks for each of the 100 goals, warm,
+by units and with a time limit, in one call of `retrieve`; of families whose slices grow, for ten of them
+where there are a million units. However large its slice, a goal is asked, and what did not come to its proof
+counts with the limit. Each better tree is noted as it is found.
 
-Writes benchmarks/results/growth.json.
+Writes benchmarks/results/growth.json: a size that was measured before is replaced there, others stay, each
+with the machine, the day and the command of its measurement.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
-import random
 import shutil
 import statistics
 import subprocess
@@ -33,19 +33,22 @@ from typing import Any
 
 from machine import DATA, RESULTS, Machine
 
+from foon_asp.query.query import Query
+from foon_asp.retrieval.retrieve import retrieve
+
 # Linux counts the memory of a process into the peak of those that it starts: so nothing large is imported.
 
 SIZES = (1_000, 10_000, 100_000, 1_000_000)
 FAMILIES = ("random", "chain", "dense")
-DENSE_TO = 100_000
-"""The largest size of the family `dense`: beyond, most slices are too large to be asked."""
 SEED = 1
-_SHARE = 0.2
-"""Of the seconds for all goals, for families whose slices grow with the FOON: they cannot all be asked."""
 
-STEPS = ("slice", "facts", "ground", "solve", "decode", "retrieve")
-LARGE = 300_000
+LARGE = 100_000
 """From this size on, a single run, unless asked otherwise."""
+HUGE = 1_000_000
+"""From this size on, few goals of families whose slices grow with the FOON, and a longer limit for each."""
+FEW = 10
+LIMITS = (10.0, 20.0)
+"""Seconds for a goal, below that size and from there on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,23 +71,50 @@ class Spread:
 
 
 @dataclass(frozen=True, slots=True)
-class Queries:
-    """What asking for goals took, by step. `slices` and `retrieve` run parallel, goal by goal.
+class Asked:
+    """What came of a goal: units in its slice, seconds, and the tree; of several runs the middle one.
 
-    `goals` is how many there are, `too_large` how many of them have a slice that is too large, `proven`
-    how many were proven optimal.
+    `better` has each tree that was better than those before, as seconds since the question and units.
+    `bound` says how few units any tree has at least, where that is all that is proven.
     """
 
-    goals: int
-    asked: int
-    too_large: int
-    proven: int
+    slice: int
+    seconds: float
+    status: str
+    units: int | None
+    bound: float | None
+    better: tuple[tuple[float, int], ...]
+
+    @property
+    def proven(self) -> bool:
+        return self.status in ("optimal", "unreachable")
+
+    def counted(self, limit: float) -> float:
+        """Return the seconds to the proof; without one, those of the limit at least."""
+        return self.seconds if self.proven else max(limit, self.seconds)
+
+    def until(self, units: float) -> float:
+        """Return the seconds until there was a tree with so many units or fewer; infinite without one."""
+        return min((seconds for seconds, count in self.better if count <= units), default=math.inf)
+
+
+@dataclass(frozen=True, slots=True)
+class Queries:
+    """What asking for goals took, with a limit of so many seconds each."""
+
+    limit: float
     runs: int
     peak: float
-    steps: dict[str, Spread]
-    all_slices: tuple[int, ...]
-    slices: tuple[int, ...]
-    retrieve: tuple[float, ...]
+    asked: tuple[Asked, ...]
+
+    @property
+    def proven(self) -> int:
+        return sum(each.proven for each in self.asked)
+
+    @property
+    def whole(self) -> Spread:
+        """Seconds to the proof over all goals."""
+        return spread([each.counted(self.limit) for each in self.asked])
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,33 +130,48 @@ class Size:
     kitchen: int
     rounds: int
     stages: tuple[Stage, ...]
-    queries: Queries
+    queries: Queries | None
+    machine: Machine
+    command: str
+
+    @property
+    def key(self) -> tuple[str, int]:
+        return self.family, self.units
 
 
 @dataclass(frozen=True, slots=True)
 class Growth:
-    """The outcome of a run, for the report."""
+    """The sizes that were measured, for the report."""
 
-    machine: Machine
-    command: str
     sizes: tuple[Size, ...]
 
     @classmethod
     def read(cls, path: Path) -> Growth:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        return cls(Machine.of(data["machine"]), data["command"], tuple(map(_size, data["sizes"])))
+        return cls(tuple(map(_size, json.loads(path.read_text(encoding="utf-8"))["sizes"])))
 
     def write(self, path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")
 
+    def into(self, path: Path) -> None:
+        """Write these sizes in the place of those that were measured before, and leave the others."""
+        before = Growth.read(path).sizes if path.exists() else ()
+        found = {size.key: size for size in (*before, *self.sizes)}
+        families = ("public", *FAMILIES)
+        order = sorted(found, key=lambda key: (key[0] != "public", key[1], families.index(key[0])))
+        Growth(tuple(found[key] for key in order)).write(path)
+
 
 def _size(row: dict[str, Any]) -> Size:
     stages = tuple(Stage(**stage) for stage in row.pop("stages"))
-    queries = row.pop("queries")
-    steps = {name: Spread(**spread) for name, spread in queries.pop("steps").items()}
-    queries |= {name: tuple(queries[name]) for name in ("all_slices", "slices", "retrieve")}
-    return Size(**row, stages=stages, queries=Queries(**queries, steps=steps))
+    machine, queries = Machine.of(row.pop("machine")), row.pop("queries")
+    if queries is not None:
+        asked = tuple(
+            Asked(**goal | {"better": tuple((seconds, units) for seconds, units in goal["better"])})
+            for goal in queries["asked"]
+        )
+        queries = Queries(**queries | {"asked": asked})
+    return Size(**row, stages=stages, queries=queries, machine=machine)
 
 
 # What follows up to `measure` runs in a process of its own.
@@ -135,7 +180,7 @@ def _size(row: dict[str, Any]) -> Size:
 def run_stage(name: str, folder: Path, options: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """Run a stage; yield rows of what it took."""
     if name == "parse":
-        from foon_asp.dataset import read_foon
+        from foon_asp.io.folder import read_foon
 
         begun = time.perf_counter()
         files = read_foon([folder / "FOON.txt"])
@@ -152,17 +197,17 @@ def _timed(took: dict[str, Any], name: str, action: Callable[[], Any]) -> Any:
 
 
 def _open_domain(folder: Path, took: dict[str, Any]) -> Any:
-    from foon_asp.dataset import read_foon
-    from foon_asp.files import read_rates, read_stock, read_utensils
-    from foon_asp.kitchen import Kitchen
-    from foon_asp.problem import Domain
+    from foon_asp.io.folder import read_foon
+    from foon_asp.io.kitchen import read_labels, read_rates, read_stock
+    from foon_asp.model.kitchen import Kitchen
+    from foon_asp.model.world import World
 
-    def look() -> Domain:
+    def look() -> World:
         stock = tuple(read_stock(folder / "kitchen.json"))
-        utensils = read_utensils(folder / "utensils.txt")
-        domain = Domain(files.foon, Kitchen(stock, utensils, read_rates(folder / "motion.txt")))
-        assert domain.reading is not None
-        return domain
+        utensils = read_labels(folder / "utensils.txt")
+        world = World.of(files.foon, Kitchen(stock, utensils, read_rates(folder / "motion.txt")))
+        assert world.units is not None
+        return world
 
     files = _timed(took, "open", lambda: read_foon([folder / "FOON.foon"]))
     return _timed(took, "domain", look)
@@ -170,58 +215,48 @@ def _open_domain(folder: Path, took: dict[str, Any]) -> Any:
 
 def _open(folder: Path, _: argparse.Namespace) -> Iterator[dict[str, Any]]:
     took: dict[str, Any] = {}
-    domain = _open_domain(folder, took)
-    _timed(took, "closure", lambda: domain.closure)
-    took |= {"objects": len(domain.foon.objects), "units": len(domain.foon.units)}
-    took |= {"kitchen": len(domain.stock), "rounds": max(domain.closure.available.values(), default=0)}
+    world = _open_domain(folder, took)
+    _timed(took, "closure", lambda: world.closure)
+    took |= {"objects": len(world.foon.objects), "units": len(world.foon.units)}
+    took |= {"kitchen": len(world.stock), "rounds": max(world.closure.available.values(), default=0)}
     yield took
 
 
 def _query(folder: Path, options: argparse.Namespace) -> Iterator[dict[str, Any]]:
-    """Yield a row for each goal that can be made: the steps, or only its slice if it is not asked."""
-    from foon_asp.files import read_objects
+    """Yield a row for each goal that can be made, or for so many of them, spread evenly."""
+    from foon_asp.io.kitchen import read_objects
+    from foon_asp.query.problem import Problem
 
-    domain = _open_domain(folder, {})
-    goals = [goal for goal in read_objects(folder / "goal_nodes.json") if _reachable(domain, goal)]
-    order = list(enumerate(goals))
-    random.Random(0).shuffle(order)
+    world = _open_domain(folder, {})
+    rounds = world.closure.available
+    goals = [goal for goal in read_objects(folder / "goal_nodes.json") if world.id_of(goal) in rounds]
+    count = min(options.goals, len(goals))
     # The first question builds what all share.
-    rounds = domain.closure.available
-    _ask(domain, min(goals, key=lambda goal: rounds[domain.id_of(goal)]), {}, options.limit)
+    _ask(world, min(goals, key=lambda goal: rounds[world.id_of(goal)]), options.limit)
+    for goal in (goals[len(goals) * place // count] for place in range(count)):
+        yield {"slice": len(Problem.of(world, [goal]).units), **_ask(world, goal, options.limit)}
+
+
+def _ask(world: Any, goal: Any, limit: float) -> dict[str, Any]:
+    """Ask for one goal; note each better tree as it is found."""
+    better: list[tuple[float, int]] = []
     begun = time.perf_counter()
-    for place, goal in order:
-        row: dict[str, Any] = {"goal": place}
-        problem = domain.problem([goal])
-        size = len(problem.units)
-        row["units"] = size
-        if size <= options.most_units and time.perf_counter() - begun < options.budget:
-            _ask(domain, goal, row, options.limit)
-        yield row
 
+    def note(tree: Any) -> None:
+        better.append((round(time.perf_counter() - begun, 6), len(tree.units)))
 
-def _reachable(domain: Any, goal: Any) -> bool:
-    return domain.id_of(goal) in domain.closure.available
-
-
-def _ask(domain: Any, goal: Any, row: dict[str, Any], limit: float) -> None:
-    """Ask for one goal, step by step and then in one call."""
-    import foon_asp
-    from foon_asp.criteria import parse_by
-    from foon_asp.decode import decode_tree
-    from foon_asp.facts import read_facts
-    from foon_asp.program import optimisers
-
-    problem = domain.problem([goal])
-    _timed(row, "slice", lambda: problem.units)
-    _timed(row, "facts", lambda: read_facts(problem))
-    solver = _timed(row, "ground", lambda: next(optimisers(problem, parse_by("units"))))
-    row["ground"] = max(0.0, row["ground"] - row["facts"])
-    answer = _timed(row, "solve", lambda: solver.best(time.monotonic() + limit))
-    if not answer.proven:
-        return
-    _timed(row, "decode", lambda: decode_tree(problem, answer))
-    found = _timed(row, "retrieve", lambda: foon_asp.retrieve(domain, goal))
-    row["proven"] = found.status == "optimal"
+    found = retrieve(world, Query(goal, time_limit=limit), on_better=note)
+    seconds = round(time.perf_counter() - begun, 6)
+    units = None if found.tree is None else len(found.tree.units)
+    if units is not None and (not better or better[-1][1] > units):
+        better.append((seconds, units))
+    return {
+        "seconds": seconds,
+        "status": str(found.status),
+        "units": units,
+        "bound": found.bound.get("units"),
+        "better": better,
+    }
 
 
 # What follows runs in the process that was started, and starts the others.
@@ -229,8 +264,8 @@ def _ask(domain: Any, goal: Any, row: dict[str, Any], limit: float) -> None:
 
 def child(name: str, folder: Path, options: argparse.Namespace) -> tuple[list[dict[str, Any]], float, float]:
     """Run a stage in a process of its own; return its rows, wall seconds, and peak memory in MiB."""
-    limits = [f"--most-units={options.most_units}", f"--budget={options.budget}", f"--limit={options.limit}"]
-    return _process([sys.executable, __file__, "--stage", name, str(folder), *limits])
+    asked = [f"--goals={options.goals}", f"--limit={options.limit}"]
+    return _process([sys.executable, __file__, "--stage", name, str(folder), *asked])
 
 
 def _process(command: Sequence[str]) -> tuple[list[dict[str, Any]], float, float]:
@@ -261,11 +296,15 @@ def prepare(family: str, units: int, cache: Path) -> Path:
     return folder
 
 
-def measure(family: str, units: int, folder: Path, options: argparse.Namespace) -> Size:
+def measure(
+    family: str, units: int, folder: Path, options: argparse.Namespace, machine: Machine, command: str
+) -> Size:
     """Measure every stage of one FOON."""
     runs = options.runs or (1 if units >= LARGE else 3)
-    if family in ("chain", "dense"):
-        options = argparse.Namespace(**vars(options) | {"budget": options.budget * _SHARE})
+    huge = units >= HUGE
+    goals = min(options.goals, FEW) if huge and family in ("chain", "dense") else options.goals
+    limit = options.limit or LIMITS[huge]
+    options = argparse.Namespace(goals=goals, limit=limit)
     store = folder / "FOON.foon"
     took: dict[str, list[float]] = {}
     peaks: dict[str, list[float]] = {}
@@ -305,36 +344,16 @@ def measure(family: str, units: int, folder: Path, options: argparse.Namespace) 
         tuple(
             Stage(name, statistics.median(took[name]), statistics.median(peaks[name]), runs) for name in took
         ),
-        _queries(answers, statistics.median(query_peaks), options.most_units),
+        Queries(limit, runs, statistics.median(query_peaks), tuple(map(_middle, zip(*answers, strict=True)))),
+        machine,
+        command,
     )
 
 
-def _queries(answers: Sequence[Sequence[dict[str, Any]]], peak: float, most: int) -> Queries:
-    """Bring the rows of several runs together, goal by goal; a goal counts as asked if all runs asked it."""
-    by_goal: dict[int, list[dict[str, Any]]] = {}
-    for rows in answers:
-        for row in rows:
-            by_goal.setdefault(row["goal"], []).append(row)
-    asked = {
-        goal: rows
-        for goal, rows in sorted(by_goal.items())
-        if len(rows) == len(answers) and all("retrieve" in row for row in rows)
-    }
-    middle = {
-        step: [statistics.median(row[step] for row in rows) for rows in asked.values()] for step in STEPS
-    }
-    return Queries(
-        goals=len(by_goal),
-        asked=len(asked),
-        too_large=sum(rows[0]["units"] > most for rows in by_goal.values()),
-        proven=sum(all(row["proven"] for row in rows) for rows in asked.values()),
-        runs=len(answers),
-        peak=peak,
-        steps={step: spread(values) for step, values in middle.items() if values},
-        all_slices=tuple(sorted(rows[0]["units"] for rows in by_goal.values())),
-        slices=tuple(rows[0]["units"] for rows in asked.values()),
-        retrieve=tuple(round(seconds, 6) for seconds in middle["retrieve"]),
-    )
+def _middle(rows: Sequence[dict[str, Any]]) -> Asked:
+    """Return what came of a goal in the run with the median of the times."""
+    row = sorted(rows, key=lambda row: row["seconds"])[(len(rows) - 1) // 2]
+    return Asked(**row | {"better": tuple((seconds, units) for seconds, units in row["better"])})
 
 
 def spread(values: Sequence[float]) -> Spread:
@@ -346,17 +365,13 @@ def spread(values: Sequence[float]) -> Spread:
 def in_short(size: Size) -> str:
     """Say in a line what was measured."""
     stages = ", ".join(f"{stage.name} {stage.seconds:.3g} s {stage.peak:.0f} MiB" for stage in size.stages)
-    queries = size.queries
-    query = queries.steps.get("retrieve")
-    times = (
-        f"{query.median * 1000:.1f} / {query.p90 * 1000:.1f} / {query.maximum * 1000:.0f} ms"
-        if query
-        else "-"
-    )
-    middle = queries.all_slices[len(queries.all_slices) // 2]
+    assert size.queries is not None
+    queries, whole = size.queries, size.queries.whole
+    slices = sorted(each.slice for each in queries.asked)
     return (
-        f"{size.family} {size.units}: {stages}; slice median {middle}; "
-        f"query {times} ({queries.asked} of {queries.goals} asked, {queries.proven} proven)"
+        f"{size.family} {size.units}: {stages}; slice median {slices[len(slices) // 2]}; "
+        f"query {whole.median * 1000:.1f} / {whole.p90 * 1000:.1f} / {whole.maximum * 1000:.0f} ms "
+        f"({queries.proven} of {len(queries.asked)} proven)"
     )
 
 
@@ -368,9 +383,13 @@ def main() -> None:
         "--runs", type=int, help=f"runs of each stage (default: 3; from {LARGE:,} units on, 1)"
     )
     parser.add_argument("--data-cache", type=Path, metavar="DIR", help="where generated FOONs are kept")
-    parser.add_argument("--most-units", type=int, default=5_000, help="largest slice (default: 5,000)")
-    parser.add_argument("--budget", type=float, default=60.0, help="seconds for all goals (default: 60)")
-    parser.add_argument("--limit", type=float, default=20.0, help="seconds to solve a goal (default: 20)")
+    parser.add_argument("--goals", type=int, default=100, metavar="N", help="at most (default: 100)")
+    parser.add_argument(
+        "--limit",
+        type=float,
+        metavar="S",
+        help=f"seconds for a goal (default: {LIMITS[0]:g}, {LIMITS[1]:g} if huge)",
+    )
     parser.add_argument("--output", type=Path, default=RESULTS / "growth.json")
     parser.add_argument("--no-public", action="store_true", help="leave out the public FOON")
     parser.add_argument("--stage", nargs=2, help=argparse.SUPPRESS)
@@ -380,22 +399,23 @@ def main() -> None:
         for row in run_stage(name, Path(folder), options):
             print(json.dumps(row), flush=True)
         return
+    command = f"python benchmarks/growth.py --sizes {' '.join(map(str, options.sizes))}"
+    command += f" --families {' '.join(options.families)}"
+    command += f" --runs {options.runs}" if options.runs else ""
+    command += f" --goals {options.goals}" if options.goals != parser.get_default("goals") else ""
+    command += f" --limit {options.limit:g}" if options.limit else ""
+    machine = Machine.here()
     with tempfile.TemporaryDirectory() as temporary:
         cache = options.data_cache or Path(temporary)
         cache.mkdir(parents=True, exist_ok=True)
         plan = [(family, units) for units in options.sizes for family in options.families]
-        plan = [(family, units) for family, units in plan if family != "dense" or units <= DENSE_TO]
         if not options.no_public and (DATA / "FOON.txt").exists():
             plan.insert(0, ("public", 0))
-        sizes = []
         for family, units in plan:
-            sizes.append(measure(family, units, prepare(family, units, cache), options))
-            print(in_short(sizes[-1]), flush=True)
-    command = f"python benchmarks/growth.py --sizes {' '.join(map(str, options.sizes))}"
-    command += f" --families {' '.join(options.families)}" + (
-        f" --runs {options.runs}" if options.runs else ""
-    )
-    Growth(Machine.here(), command, tuple(sizes)).write(options.output)
+            folder = prepare(family, units, cache)
+            size = measure(family, units, folder, options, machine, command)
+            print(in_short(size), flush=True)
+            Growth((size,)).into(options.output)
 
 
 if __name__ == "__main__":

@@ -15,11 +15,11 @@ import importlib
 from collections.abc import Iterable
 from typing import Any
 
-from proof import Proof, Slice, Stopwatch, loaded_problem
+from proof import Proof, Slice, Stopwatch, posed
 
-from foon_asp.graph import ObjectNode
-from foon_asp.problem import Domain
-from foon_asp.tree import TaskTree
+from foon_asp.model.node import ObjectId, ObjectNode, UnitId
+from foon_asp.model.world import World
+from foon_asp.retrieval.tree import TaskTree
 
 # Not all of it is typed.
 model_builder: Any = importlib.import_module("ortools.linear_solver.python.model_builder")
@@ -28,12 +28,14 @@ Variable = Any
 SOLVERS = ("scip", "highs")
 
 
-def solve(domain: Domain, goal: ObjectNode, limit: float, solver: str = "scip") -> Proof:
+def solve(
+    world: World, goal: ObjectNode, limit: float, *, reduced: bool = False, solver: str = "scip"
+) -> Proof:
     """Find a least task tree, or prove within `limit` seconds that there is none."""
     watch = Stopwatch()
-    problem = loaded_problem(domain, goal)
-    if problem is None:
-        return watch.proof("unreachable")
+    problem = posed(watch, world, goal, reduced=reduced)
+    if isinstance(problem, Proof):
+        return problem
     program = _Program(Slice.of(problem))
     watch.lap("build")
     engine = model_builder.Solver(solver)
@@ -42,7 +44,7 @@ def solve(domain: Domain, goal: ObjectNode, limit: float, solver: str = "scip") 
     found = status in (model_builder.SolveStatus.OPTIMAL, model_builder.SolveStatus.FEASIBLE)
     units = [unit for unit, use in program.use.items() if found and engine.value(use) > 0.5]
     watch.lap("solve")
-    tree = TaskTree.of(domain, problem.goals, units) if found else None
+    tree = TaskTree.of(world, problem.goals, units) if found else None
     watch.lap("replay")
     words = {
         model_builder.SolveStatus.OPTIMAL: "optimal",
@@ -58,7 +60,7 @@ class _Program:
         self.part = part
         self.model = model_builder.Model()
         self.use = {unit: self._variable() for unit in part.needs}
-        self._edges: dict[tuple[int, int], Variable] = {}
+        self._edges: dict[tuple[ObjectId, ObjectId], Variable] = {}
         made = {thing: self._variable() for thing in part.makers}
         for thing, units in part.makers.items():
             self.model.add(_sum(self._way(thing, unit) for unit in units) >= made[thing])
@@ -73,7 +75,7 @@ class _Program:
     def _variable(self) -> Variable:
         return self.model.new_bool_var("")
 
-    def _way(self, thing: int, unit: int) -> Variable:
+    def _way(self, thing: ObjectId, unit: UnitId) -> Variable:
         """Return the variable that a unit makes an object after all that it needs of the same circle."""
         before = self.part.before(thing, unit)
         if not before:
@@ -84,15 +86,15 @@ class _Program:
             self.model.add(way <= self._edge(need, thing))
         return way
 
-    def _edge(self, before: int, behind: int) -> Variable:
+    def _edge(self, before: ObjectId, behind: ObjectId) -> Variable:
         if (before, behind) not in self._edges:
             self._edges[before, behind] = self._variable()
         return self._edges[before, behind]
 
     def _eliminate(self) -> None:
         """Forbid circles: take out object after object, the fewest neighbours first, and shortcut edges."""
-        after: dict[int, set[int]] = {thing: set() for thing in self.part.circles}
-        before: dict[int, set[int]] = {thing: set() for thing in self.part.circles}
+        after: dict[ObjectId, set[ObjectId]] = {thing: set() for thing in self.part.circles}
+        before: dict[ObjectId, set[ObjectId]] = {thing: set() for thing in self.part.circles}
         for first, second in self._edges:
             after[first].add(second)
             before[second].add(first)

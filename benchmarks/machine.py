@@ -8,7 +8,7 @@ import statistics
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,8 @@ class Machine:
     """Cores, memory in GiB, system, versions, and the day of the measurement.
 
     `loop` is how many seconds a loop of five million steps takes in Python: shared machines have slow hours,
-    and with it figures of different hours can be compared.
+    and with it figures of different hours can be compared. `load` is how many processes wanted to run in the
+    minute before, what was measured among them: beside others it waits for its turn.
     """
 
     cores: int
@@ -35,6 +36,7 @@ class Machine:
     libraries: Mapping[str, str]
     date: str
     loop: float
+    load: float | None = None
 
     @classmethod
     def here(cls, more: Sequence[str] = ()) -> Machine:
@@ -52,8 +54,9 @@ class Machine:
             f"{platform.system()} {platform.machine()}",
             platform.python_version(),
             libraries,
-            datetime.now(timezone.utc).date().isoformat(),
+            datetime.now(UTC).date().isoformat(),
             round(statistics.median(_loop() for _ in range(5)), 3),
+            round(os.getloadavg()[0], 1),
         )
 
     @classmethod
@@ -62,9 +65,10 @@ class Machine:
 
     def __str__(self) -> str:
         libraries = ", ".join(f"{name} {number}" for name, number in self.libraries.items())
+        load = "" if self.load is None else f", the load was {self.load:g}"
         return (
             f"{self.cores} cores, {self.memory:g} GiB, {self.system}, Python {self.python}, {libraries}; "
-            f"{self.date}; a loop of 5·10⁶ steps in Python took {self.loop:.2f} s"
+            f"{self.date}; a loop of 5·10⁶ steps in Python took {self.loop:.2f} s{load}"
         )
 
 

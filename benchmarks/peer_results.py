@@ -10,7 +10,19 @@ from pathlib import Path
 from typing import Any
 
 OURS = "clingo"
-EXACT = (OURS, "cp-sat", "fd-lmcut", "fd-operator-counting", "integer-program")
+REDUCED, UNREDUCED = "-reduced", "-unreduced"
+"""What follows the name of a peer that is given what the reductions leave, and of clingo if it is not."""
+EXACT = (
+    OURS,
+    OURS + UNREDUCED,
+    "cp-sat",
+    "cp-sat" + REDUCED,
+    "fd-lmcut",
+    "fd-lmcut" + REDUCED,
+    "fd-operator-counting",
+    "integer-program",
+    "integer-program" + REDUCED,
+)
 GREEDY = ("greedy-success", "greedy-inputs", "greedy-first")
 MENU = "menu"
 WAYS = ("plain", "suggest", MENU)
@@ -257,6 +269,11 @@ def _doubts(row: Row, first: Row) -> Iterator[str]:
         yield f"the tree of {row.method} fails its replay"
     if "limit" not in (row.status, first.status) and row.answer != first.answer:
         yield f"{row}, but before that {first}"
+
+
+def base(method: str) -> str:
+    """Return the name of a method, whatever it was given."""
+    return method.removesuffix(REDUCED).removesuffix(UNREDUCED)
 
 
 def _mean(values: Iterable[float]) -> float:

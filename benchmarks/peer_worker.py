@@ -17,51 +17,65 @@ from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from peer_results import EXACT, GREEDY, LIMIT, MENU, OURS, WAYS, Row
-from proof import Proof, Stopwatch
+from peer_results import EXACT, GREEDY, LIMIT, MENU, OURS, REDUCED, UNREDUCED, WAYS, Row, base
+from proof import Proof, Stopwatch, loaded_problem
 
-import foon_asp
-from foon_asp.graph import ObjectNode
-from foon_asp.problem import Domain
-from foon_asp.retrieve import retrieve
+from foon_asp.io.folder import load
+from foon_asp.model.node import ObjectId, ObjectNode
+from foon_asp.model.world import World
+from foon_asp.query.objective import UNITS
+from foon_asp.query.query import Query
+from foon_asp.retrieval.retrieve import retrieve
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = Path(os.environ.get("FOON_PUBLIC_DATA", ROOT.parent / "shared" / "foon")) / "universal"
 SAMPLE = 30
 
 
-def clingo(domain: Domain, goal: ObjectNode) -> Proof:
+def clingo(world: World, goal: ObjectNode) -> Proof:
     """Retrieve as everybody does. Without a time limit: with one, it first looks for any tree at all."""
     watch = Stopwatch()
-    found = retrieve(domain, goal)
+    found = retrieve(world, Query(goal))
     return watch.proof(found.status, found.tree, found.reason)
+
+
+def clingo_unreduced(world: World, goal: ObjectNode) -> Proof:
+    """Give clingo the whole slice."""
+    from foon_asp.retrieval.methods.proven import solved
+
+    watch = Stopwatch()
+    problem = loaded_problem(world, goal)
+    if problem is None:
+        return watch.proof("unreachable")
+    found = solved(problem, UNITS)
+    return watch.proof(found.status, found.tree)
 
 
 # What a method needs is imported by it, so that its time and memory count for no other.
 
 
-def cp_sat(domain: Domain, goal: ObjectNode) -> Proof:
+def cp_sat(world: World, goal: ObjectNode, *, reduced: bool = False) -> Proof:
     import cp_sat
 
-    return cp_sat.solve(domain, goal, LIMIT)
+    return cp_sat.solve(world, goal, LIMIT, reduced=reduced)
 
 
-def integer_program(domain: Domain, goal: ObjectNode) -> Proof:
+def integer_program(world: World, goal: ObjectNode, *, reduced: bool = False) -> Proof:
     import integer_program
 
-    return integer_program.solve(domain, goal, LIMIT)
+    return integer_program.solve(world, goal, LIMIT, reduced=reduced)
 
 
-def lmcut(domain: Domain, goal: ObjectNode) -> Proof:
+def lmcut(world: World, goal: ObjectNode, *, reduced: bool = False) -> Proof:
     import downward
 
-    return downward.solve(domain, goal, LIMIT)
+    return downward.solve(world, goal, LIMIT, reduced=reduced)
 
 
-def operator_counting(domain: Domain, goal: ObjectNode) -> Proof:
+def operator_counting(world: World, goal: ObjectNode) -> Proof:
     import downward
 
-    return downward.solve(domain, goal, LIMIT, downward.OPERATOR_COUNTING.format(solver=_lp_solver()))
+    return downward.solve(world, goal, LIMIT, downward.OPERATOR_COUNTING.format(solver=_lp_solver()))
 
 
 @cache
@@ -71,25 +85,32 @@ def _lp_solver() -> str:
     return next(solver for solver in downward.LP_SOLVERS if not downward.unsupported(solver))
 
 
-def by_heuristic(heuristic: str, domain: Domain, goal: ObjectNode) -> Proof:
+def by_heuristic(heuristic: str, world: World, goal: ObjectNode) -> Proof:
     import greedy
 
-    return greedy.solve(domain, goal, heuristic)
+    return greedy.solve(world, goal, heuristic)
 
 
-Method = Callable[[Domain, ObjectNode], Proof]
+Method = Callable[[World, ObjectNode], Proof]
+
+_PEERS = {"cp-sat": cp_sat, "fd-lmcut": lmcut, "integer-program": integer_program}
+"""Peers that can be given what the reductions leave, too."""
 
 METHODS: dict[str, Method] = {
-    **dict(zip(EXACT, (clingo, cp_sat, lmcut, operator_counting, integer_program), strict=True)),
+    OURS: clingo,
+    OURS + UNREDUCED: clingo_unreduced,
+    **_PEERS,
+    **{name + REDUCED: partial(peer, reduced=True) for name, peer in _PEERS.items()},
+    "fd-operator-counting": operator_counting,
     **{name: partial(by_heuristic, name.removeprefix("greedy-")) for name in GREEDY},
 }
 
 
-def _load() -> Domain:
+def _load() -> World:
     """Load the FOON and work out all that does not depend on the goal."""
-    domain = foon_asp.load(DATA).domain()
-    assert domain.closure.available
-    return domain
+    world = load(DATA).world()
+    assert world.closure.available
+    return world
 
 
 def _peak() -> float:
@@ -99,9 +120,9 @@ def _peak() -> float:
     return most / (1 << (20 if sys.platform == "darwin" else 10))
 
 
-def _row(domain: Domain, kind: str, method: str, goal: int, run: int, loaded: float) -> Row:
+def _row(world: World, kind: str, method: str, goal: ObjectId, run: int, loaded: float) -> Row:
     """Ask a method for a goal."""
-    proof = METHODS[method](domain, domain.node(goal))
+    proof = METHODS[method](world, world.node(goal))
     tree = proof.tree
     return Row(
         kind,
@@ -121,52 +142,53 @@ def _row(domain: Domain, kind: str, method: str, goal: int, run: int, loaded: fl
 
 def serve(method: str) -> None:
     """Answer goals for a method: `goal run` on standard input, a row on standard output."""
-    domain = _load()
+    world = _load()
     loaded = _peak()
     warm = False
     for line in sys.stdin:
-        goal, run = map(int, line.split())
+        number, run = map(int, line.split())
+        goal = ObjectId(number)
         if not warm:
-            _row(domain, "warm", method, goal, run, loaded)
+            _row(world, "warm", method, goal, run, loaded)
             warm = True
-        print(json.dumps(asdict(_row(domain, "warm", method, goal, run, loaded))), flush=True)
+        print(json.dumps(asdict(_row(world, "warm", method, goal, run, loaded))), flush=True)
 
 
-def answer_once(method: str, goal: int) -> None:
+def answer_once(method: str, goal: ObjectId) -> None:
     """Answer one goal in this process, and no more."""
-    domain = _load()
-    print(json.dumps(asdict(_row(domain, "whole", method, goal, 0, _peak()))))
+    world = _load()
+    print(json.dumps(asdict(_row(world, "whole", method, goal, 0, _peak()))))
 
 
 def prove_everything(way: str) -> None:
     """Prove an optimum for all objects that can be made; print the figures, with the units of each."""
-    from foon_asp.suggest import suggest
+    from foon_asp.retrieval.suggest import suggest
 
-    domain = _load()
-    goals = makeable(domain)
+    world = _load()
+    goals = makeable(world)
     begun = time.perf_counter()
     if way == MENU:
-        wanted = foon_asp.load(DATA).goals
-        together = [goal for goal in wanted if domain.id_of(goal) in domain.closure.available]
+        wanted = load(DATA).goals
+        together = [goal for goal in wanted if world.id_of(goal) in world.closure.available]
         begun = time.perf_counter()
-        menu = retrieve(domain, together)
+        menu = retrieve(world, Query(*together))
         goals, found = goals[:1], {goal: len(menu.tree.units) for goal in goals[:1] if menu.tree}
         assert menu.status == "optimal", menu.status
     elif way == "plain":
-        retrieved = [(goal, retrieve(domain, domain.node(goal))) for goal in goals]
+        retrieved = [(goal, retrieve(world, Query(world.node(goal)))) for goal in goals]
         found = {
             goal: len(each.tree.units) for goal, each in retrieved if each.tree and each.status == "optimal"
         }
     else:
-        dishes = suggest(domain, everything=True).dishes
-        found = {domain.id_of(dish.dish): len(dish.tree.units) for dish in dishes}
+        dishes = suggest(world, Query(), everything=True).dishes
+        found = {world.id_of(dish.dish): len(dish.tree.units) for dish in dishes}
     seconds = time.perf_counter() - begun
     print(json.dumps({"asked": len(goals), "found": found, "seconds": seconds, "peak": _peak()}))
 
 
-def makeable(domain: Domain) -> list[int]:
+def makeable(world: World) -> list[ObjectId]:
     """Return all that the kitchen can make and does not have."""
-    return sorted(thing for thing in domain.closure.available if thing not in domain.stock)
+    return sorted(thing for thing in world.closure.available if thing not in world.stock)
 
 
 def list_goals(kind: str) -> None:
@@ -177,11 +199,11 @@ def list_goals(kind: str) -> None:
     if not (DATA / "FOON.txt").exists():
         print(json.dumps({"reason": f"no FOON.txt in {DATA}; set FOON_PUBLIC_DATA"}))
         return
-    data = foon_asp.load(DATA)
-    domain = data.domain()
-    goals = [domain.id_of(goal) for goal in data.goals]
+    data = load(DATA)
+    world = data.world()
+    goals = [world.id_of(goal) for goal in data.goals]
     if kind != "25":
-        goals = makeable(domain)[:: SAMPLE if kind == "sample" else 1]
+        goals = makeable(world)[:: SAMPLE if kind == "sample" else 1]
     notes, methods = [], [OURS]
     try:
         notes.append(f"OR-tools {version('ortools')}")
@@ -198,12 +220,12 @@ def list_goals(kind: str) -> None:
         methods += ["integer-program"] if "cp-sat" in methods else []
     else:
         methods.append("fd-operator-counting")
-    there = {goal: str(domain.node(goal)) for goal in goals}
-    can = [goal for goal in goals if goal in domain.closure.available]
+    there = {goal: str(world.node(goal)) for goal in goals}
+    can = [goal for goal in goals if goal in world.closure.available]
     found = {
         "goals": there,
         "makeable": can,
-        "methods": methods,
+        "methods": [name for name in EXACT if base(name) in map(base, methods)],
         "notes": notes,
         "machine": str(Machine.here()),
     }

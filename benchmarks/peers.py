@@ -2,11 +2,13 @@
 
     python benchmarks/peers.py [--goals 25|sample|all] [--runs N] [--output FILE.json]
 
-Every goal is asked of every method in turn, in one run: clingo (`foon_asp.retrieve`, by units), CP-SAT, Fast
-Downward with LM-cut and with its operator-counting h+ (or, where its binary has no LP solver, that integer
-program solved by SCIP), and the published heuristics in plain Python. Each method has a process of its own,
-which loads the FOON once; a goal's time goes from the loaded problem to the proven and replayed tree. Then
-whole processes are timed, from start to exit, one goal each; and clingo proves all objects that can be made.
+Every goal is asked of every method in turn, in one run: clingo (`retrieve`, by units; and given the whole
+slice), CP-SAT, Fast Downward with LM-cut and with its operator-counting h+ (or, where its binary has no LP
+solver, that integer program solved by SCIP), and the published heuristics in plain Python. CP-SAT, LM-cut and
+the integer program are also given what clingo's reductions leave (`…-reduced`). Each method has a process of
+its own, which loads the FOON once; a goal's time goes from the loaded problem to the proven and replayed
+tree. Then whole processes are timed, from start to exit, one goal each; and clingo proves all objects that
+can be made.
 
 All exact methods must agree, and every tree of theirs must pass its replay; else the exit status is 1.
 
@@ -184,6 +186,7 @@ def run(options: argparse.Namespace, asked: dict[str, Any]) -> int:
     result = Peers(
         asked["machine"],
         f"python benchmarks/peers.py --goals {options.goals} --runs {options.runs}"
+        f" --whole-runs {options.whole_runs} --everything-runs {options.everything_runs}"
         + (f" --methods {' '.join(options.methods)}" if options.methods else ""),
         options.goals,
         len(there),

@@ -12,16 +12,18 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import foon_asp
-from foon_asp.dataset import read_foon
-from foon_asp.effects import SEMANTICS
 from foon_asp.errors import FoonError
-from foon_asp.files import read_utensils
-from foon_asp.graph import ObjectNode
-from foon_asp.kitchen import Kitchen
-from foon_asp.planning import PlanAnswer, plan
-from foon_asp.problem import Domain
-from foon_asp.retrieve import retrieve
+from foon_asp.io.folder import load, read_foon
+from foon_asp.io.kitchen import read_labels
+from foon_asp.model.consumption import SEMANTICS
+from foon_asp.model.kitchen import Kitchen
+from foon_asp.model.node import ObjectNode
+from foon_asp.model.world import World
+from foon_asp.planning.answer import PlanAnswer
+from foon_asp.planning.planner import plan
+from foon_asp.planning.query import PlanQuery
+from foon_asp.query.query import Query
+from foon_asp.retrieval.retrieve import retrieve
 
 
 def main() -> None:
@@ -54,8 +56,8 @@ def _cell(answer: PlanAnswer) -> str:
 
 def _add(folder: Path, limit: float) -> Iterator[str]:
     """Compare optima: ours against A* with LM-cut on the exported problem."""
-    data = foon_asp.load(folder / "universal")
-    domain = data.domain()
+    data = load(folder / "universal")
+    world = data.world()
     yield "Nothing is used up (`add`): `optimal` against Fast Downward's `astar(lmcut())`.\n"
     yield from _head("goal", "units", "ms", "A*: units", "s", "success", "ms", "A*: success", "s", "same")
     engine, agree, finished = "fast-downward-opt", 0, 0
@@ -63,10 +65,10 @@ def _add(folder: Path, limit: float) -> Iterator[str]:
         cells: list[object] = [goal.label]
         same = []
         for by in ("units", "success"):
-            ours = retrieve(domain, goal, by=by)
+            ours = retrieve(world, Query(goal, by=by))
             cost = ours.tree.costs if ours.tree else None
             mine = None if cost is None else float(cost.units if by == "units" else cost.success or 0)
-            theirs = plan(domain, [goal], engine, "add", by, time_limit=limit)
+            theirs = plan(world, PlanQuery(Query(goal, by=by, time_limit=limit), engine, "add"))
             cells += ["none" if mine is None else f"{mine:.4g}", f"{ours.seconds * 1000:.0f}"]
             cells += [_cell(theirs) if theirs.cost is None else f"{theirs.cost:.4g}", f"{theirs.seconds:.1f}"]
             if theirs.status in ("optimal", "unsolvable"):
@@ -82,8 +84,8 @@ def _add(folder: Path, limit: float) -> Iterator[str]:
 
 def _used_up(folder: Path, limit: float) -> Iterator[str]:
     """Plan with things being used up."""
-    data = foon_asp.load(folder / "universal")
-    domain = data.domain()
+    data = load(folder / "universal")
+    world = data.world()
     yield "Things are used up: `fast-downward` (LAMA) and `clingo` (fewest parallel steps, then units).\n"
     heads = ["goal"]
     for semantics in SEMANTICS[1:]:
@@ -93,8 +95,9 @@ def _used_up(folder: Path, limit: float) -> Iterator[str]:
     for goal in data.goals:
         cells: list[object] = [goal.label]
         for semantics in SEMANTICS[1:]:
-            lama = plan(domain, [goal], "fast-downward", semantics, time_limit=limit)
-            own = plan(domain, [goal], "clingo", semantics, time_limit=limit)
+            query = Query(goal, time_limit=limit)
+            lama = plan(world, PlanQuery(query, "fast-downward", semantics))
+            own = plan(world, PlanQuery(query, "clingo", semantics))
             cells += [_cell(lama), f"{lama.seconds:.1f}", own.plan.makespan if own.plan else "-"]
             cells += [
                 _cell(own) + ("" if own.status in ("optimal", "unsolvable") else "?"),
@@ -116,17 +119,17 @@ def _subgraphs(folder: Path, limit: float) -> Iterator[str]:
     totals = {"reachable": 0, "add": 0, "transform": 0, "consume": 0}
     reasons = []
     paths = sorted((folder / "subgraphs").glob("*.txt"))
-    utensils = read_utensils(folder / "universal" / "utensils.txt")
+    utensils = read_labels(folder / "universal" / "utensils.txt")
     for path in paths:
-        domain, goals = alone(path, utensils)
-        best = retrieve(domain, goals[-1]) if goals else None
+        world, goals = alone(path, utensils)
+        best = retrieve(world, Query(goals[-1])) if goals else None
         if best is None:
-            yield _row([path.stem, len(domain.foon.units), "no goal", "-", "-", "-", "-"])
+            yield _row([path.stem, len(world.foon.units), "no goal", "-", "-", "-", "-"])
             continue
-        cells: list[object] = [path.stem, len(domain.foon.units), "yes" if best.tree else "no"]
+        cells: list[object] = [path.stem, len(world.foon.units), "yes" if best.tree else "no"]
         cells.append(len(best.tree.units) if best.tree else "-")
         for semantics in SEMANTICS:
-            answer = plan(domain, goals[-1:], "fast-downward", semantics, time_limit=limit)
+            answer = plan(world, PlanQuery(Query(goals[-1], time_limit=limit), "fast-downward", semantics))
             totals[semantics] += answer.plan is not None
             cells.append(_cell(answer))
         totals["reachable"] += best.tree is not None
@@ -138,14 +141,14 @@ def _subgraphs(folder: Path, limit: float) -> Iterator[str]:
     yield from reasons
 
 
-def alone(path: Path, utensils: frozenset[str]) -> tuple[Domain, list[ObjectNode]]:
+def alone(path: Path, utensils: frozenset[str]) -> tuple[World, list[ObjectNode]]:
     """Return a file as a domain whose kitchen is what no unit of it makes, and its marked goals."""
     files = read_foon([path])
     foon = files.foon
     made = {number for unit in foon.units for number in unit.outputs if not foon.objects[number].bare}
     raw = {number for unit in foon.units for number in unit.inputs} - made
     kitchen = Kitchen(tuple(foon.objects[number] for number in sorted(raw)), utensils, default_rate=1.0)
-    return Domain(foon, kitchen), foon.marked_goals()
+    return World.of(foon, kitchen), foon.marked_goals()
 
 
 if __name__ == "__main__":

@@ -6,9 +6,12 @@ import time
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from foon_asp.graph import ObjectNode
-from foon_asp.problem import Domain, Problem
-from foon_asp.tree import TaskTree
+from foon_asp.model.node import ObjectId, ObjectNode, UnitId
+from foon_asp.model.world import World
+from foon_asp.query.objective import UNITS
+from foon_asp.query.problem import Problem
+from foon_asp.query.reduction import MOST, narrowed
+from foon_asp.retrieval.tree import TaskTree
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,19 +57,19 @@ class Slice:
     others can be put in an order once and for all, whatever units are chosen.
     """
 
-    goals: tuple[int, ...]
-    needs: Mapping[int, Collection[int]]
-    makers: Mapping[int, Collection[int]]
-    circles: Mapping[int, int]
+    goals: tuple[ObjectId, ...]
+    needs: Mapping[UnitId, Collection[ObjectId]]
+    makers: Mapping[ObjectId, Collection[UnitId]]
+    circles: Mapping[ObjectId, int]
 
     @classmethod
     def of(cls, problem: Problem) -> Slice:
         """Cut a problem down to what matters."""
-        domain = problem.domain
-        stock, reading = domain.stock, domain.reading
+        world = problem.world
+        stock, reading = world.stock, world.units
         goals = tuple(goal for goal in problem.goals if goal not in stock)
         needs = {unit: [need for need in reading.needs[unit] if need not in stock] for unit in problem.units}
-        makers: dict[int, list[int]] = {thing: [] for thing in goals}
+        makers: dict[ObjectId, list[UnitId]] = {thing: [] for thing in goals}
         for things in needs.values():
             makers.update((thing, []) for thing in things)
         for unit in needs:
@@ -75,7 +78,7 @@ class Slice:
                     makers[thing].append(unit)
         return cls(goals, needs, makers, _circles(needs, makers))
 
-    def before(self, thing: int, unit: int) -> list[int]:
+    def before(self, thing: ObjectId, unit: UnitId) -> list[ObjectId]:
         """Return what a unit needs of the circle of an object that it makes."""
         circle = self.circles.get(thing)
         if circle is None:
@@ -83,13 +86,15 @@ class Slice:
         return [need for need in self.needs[unit] if self.circles.get(need) == circle]
 
 
-def _circles(needs: Mapping[int, Collection[int]], makers: Mapping[int, Collection[int]]) -> dict[int, int]:
+def _circles(
+    needs: Mapping[UnitId, Collection[ObjectId]], makers: Mapping[ObjectId, Collection[UnitId]]
+) -> dict[ObjectId, int]:
     """Number the strongly connected components of several objects.
 
     Nearly all objects are settled by peeling off what depends on nothing; the components are those of the
     rest.
     """
-    after: dict[int, list[int]] = {}
+    after: dict[ObjectId, list[ObjectId]] = {}
     waiting = dict.fromkeys(makers, 0)
     for thing, units in makers.items():
         for unit in units:
@@ -115,7 +120,24 @@ def _circles(needs: Mapping[int, Collection[int]], makers: Mapping[int, Collecti
     return {thing: number for number, part in enumerate(components) for thing in part}
 
 
-def loaded_problem(domain: Domain, goal: ObjectNode) -> Problem | None:
-    """Return the problem of a goal, or None if the kitchen cannot make it."""
-    problem = domain.problem([goal])
-    return problem if problem.goals[0] in domain.closure.available else None
+def loaded_problem(world: World, goal: ObjectNode, *, reduced: bool = False) -> Problem | None:
+    """Return the problem of a goal, if asked for as clingo gets it; None if the kitchen cannot make it."""
+    problem = Problem.of(world, [goal])
+    if problem.goals[0] not in world.closure.available:
+        return None
+    if reduced and len(problem.units) <= MOST:
+        return narrowed(problem, UNITS.complete)
+    return problem
+
+
+def posed(watch: Stopwatch, world: World, goal: ObjectNode, *, reduced: bool) -> Problem | Proof:
+    """Return the problem of a goal, or the answer where no solver is needed.
+
+    None is if nothing makes the goal, nor if all units that the reductions leave must be in the tree.
+    """
+    problem = loaded_problem(world, goal, reduced=reduced)
+    if problem is None:
+        return watch.proof("unreachable")
+    if problem.forced:
+        return watch.proof("optimal", TaskTree.of(world, problem.goals, problem.units))
+    return problem

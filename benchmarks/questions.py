@@ -14,32 +14,34 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-import foon_asp
-from foon_asp.alternatives import all_optimal_trees, best_trees, diverse_trees, pareto_trees
-from foon_asp.constraints import Constraints
-from foon_asp.criteria import CRITERIA
-from foon_asp.explain import explain
-from foon_asp.graph import ObjectNode
-from foon_asp.menu import plan_menu
-from foon_asp.retrieve import retrieve
-from foon_asp.suggest import suggest
-from foon_asp.trace import trace
+from foon_asp.io.folder import load
+from foon_asp.model.node import ObjectNode
+from foon_asp.model.world import World
+from foon_asp.query.constraints import Constraints
+from foon_asp.query.objective import CRITERIA
+from foon_asp.query.query import Query
+from foon_asp.retrieval.alternatives import all_optimal_trees, best_trees, diverse_trees, pareto_trees
+from foon_asp.retrieval.explain import explain
+from foon_asp.retrieval.menu import plan_menu
+from foon_asp.retrieval.retrieve import retrieve
+from foon_asp.retrieval.suggest import suggest
+from foon_asp.retrieval.trace import trace
 
 
 def main() -> None:
     """Print a table: median and maximum over the goals, in seconds."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else os.environ.get("FOON_PUBLIC_DATA", "../shared/foon"))
-    data = foon_asp.load(folder / "universal")
-    domain = data.domain()
-    goals = [goal for goal in data.goals if domain.id_of(goal) in domain.closure.available]
-    stock = domain.kitchen.objects
+    data = load(folder / "universal")
+    world = data.world()
+    goals = [goal for goal in data.goals if world.id_of(goal) in world.closure.available]
+    stock = world.kitchen.objects
 
     def under(**flags: object) -> Callable[[ObjectNode], object]:
         constraints = Constraints(**flags)  # type: ignore[arg-type]
-        return lambda goal: retrieve(domain, goal, constraints=constraints)
+        return lambda goal: retrieve(world, Query(goal, constraints=constraints))
 
     kinds: dict[str, Callable[[ObjectNode], object]] = {
-        **{f"--by {name}": _by(domain, name) for name in (*CRITERIA, "2*units+inputs") if name != "time"},
+        **{f"--by {name}": _by(world, name) for name in (*CRITERIA, "2*units+inputs") if name != "time"},
         "--without onion": under(without=("onion",)),
         "--without-tool blender": under(without_tools=("blender",)),
         "--avoid-motion fry": under(avoid_motions=("fry",)),
@@ -48,18 +50,20 @@ def main() -> None:
         "--min-success 0.001": under(min_success=0.001),
         "--human-steps 1": under(human_steps=1),
         "--human-steps 3": under(human_steps=3),
-        "-k 5": lambda goal: best_trees(domain, goal, 5),
-        "-k 5 --by success": lambda goal: best_trees(domain, goal, 5, "success"),
-        "--all-optimal": lambda goal: all_optimal_trees(domain, goal),
-        "--diverse 4": lambda goal: diverse_trees(domain, goal, 4),
-        "--pareto units,success": lambda goal: pareto_trees(domain, goal, "units,success"),
-        "--pareto units,inputs,success": lambda goal: pareto_trees(domain, goal, "units,inputs,success"),
-        "--pareto units,depth": lambda goal: pareto_trees(domain, goal, "units,depth"),
-        "explain": lambda goal: explain(domain, goal),
-        "--method ids --trace": lambda goal: trace(domain, domain.id_of(goal)),
+        "-n 5": lambda goal: best_trees(world, Query(goal), 5),
+        "-n 5 --by success": lambda goal: best_trees(world, Query(goal, by="success"), 5),
+        "--all-optimal": lambda goal: all_optimal_trees(world, Query(goal)),
+        "--diverse 4": lambda goal: diverse_trees(world, Query(goal), 4),
+        "--pareto units,success": lambda goal: pareto_trees(world, Query(goal, by="units,success")),
+        "--pareto units,inputs,success": lambda goal: pareto_trees(
+            world, Query(goal, by="units,inputs,success")
+        ),
+        "--pareto units,depth": lambda goal: pareto_trees(world, Query(goal, by="units,depth")),
+        "explain": lambda goal: explain(world, Query(goal)),
+        "--method ids --trace": lambda goal: trace(world, world.id_of(goal)),
     }
     print("| question | median (s) | max (s) | slowest goal |\n|---|---:|---:|---|")
-    retrieve(domain, goals[0])
+    retrieve(world, Query(goals[0]))
     for name, ask in kinds.items():
         times = []
         for goal in goals:
@@ -71,12 +75,12 @@ def main() -> None:
             f"| `{name}` | {statistics.median(t for t, _ in times):.3f} | {worst:.3f} | {label} |", flush=True
         )
     wholes: dict[str, Callable[[], object]] = {
-        f"menu of all {len(goals)} goals": lambda: plan_menu(domain, goals).together,
-        "the same, together only": lambda: retrieve(domain, goals),
-        "suggest --using egg,milk": lambda: suggest(domain, data.goals, using=("egg", "milk")),
-        "suggest": lambda: suggest(domain, data.goals),
+        f"menu of all {len(goals)} goals": lambda: plan_menu(world, Query(*goals)).together,
+        "the same, together only": lambda: retrieve(world, Query(*goals)),
+        "suggest --using egg,milk": lambda: suggest(world, Query(), using=("egg", "milk")),
+        "suggest": lambda: suggest(world, Query()),
         f"explain, {len(stock)} things in the kitchen, the unreachable goals": lambda: [
-            explain(domain, goal) for goal in data.goals if goal not in goals
+            explain(world, Query(goal)) for goal in data.goals if goal not in goals
         ],
     }
     for name, whole in wholes.items():
@@ -85,8 +89,8 @@ def main() -> None:
         print(f"| {name} | | {time.perf_counter() - begun:.3f} | |", flush=True)
 
 
-def _by(domain: foon_asp.problem.Domain, name: str) -> Callable[[ObjectNode], object]:
-    return lambda goal: retrieve(domain, goal, by=name)
+def _by(world: World, name: str) -> Callable[[ObjectNode], object]:
+    return lambda goal: retrieve(world, Query(goal, by=name))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,9 @@
-"""Measure retrieval and the audit on the public data; prints a markdown table.
+"""Measure retrieval and the audit on the public data; prints a table, or writes it into the page.
 
-Usage: python benchmarks/retrieval.py [--runs N]
+Usage: python benchmarks/retrieval.py [--runs N] [--write] [--output FILE]
+
+Writes benchmarks/results/commands.json, too. What of a cold `retrieve` is the start of Python and its imports
+is measured by processes that do just that, with all modules that are loaded when the command ends.
 
 The data is looked up in ../shared/foon beside the checkout, or in $FOON_PUBLIC_DATA.
 """
@@ -8,22 +11,32 @@ The data is looked up in ../shared/foon beside the checkout, or in $FOON_PUBLIC_
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import statistics
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
 
-from machine import DATA, Machine
+from machine import DATA, RESULTS, ROOT, Machine
+from tables import put_table
 
-import foon_asp
-from foon_asp.builder import FoonBuilder
-from foon_asp.text import TextReader
+from foon_asp.io.folder import load
+from foon_asp.io.text import TextReader
+from foon_asp.model.foon import FoonBuilder
+from foon_asp.query.query import Query
+from foon_asp.retrieval.retrieve import retrieve
 
 GOAL = "cheese pizza"
+ONE = f'process: `retrieve "{GOAL}"`'
+COMPARE = "process: `compare`"
+IMPORTS = "the same, its start and imports alone"
+START = "the same, the start of Python alone"
 REPEATS = 5
 
 
@@ -42,6 +55,37 @@ class Row:
         return "| " + " | ".join(cells) + " |"
 
 
+@dataclass(frozen=True, slots=True)
+class Commands:
+    """The outcome of a run, for the report."""
+
+    machine: Machine
+    command: str
+    rows: tuple[Row, ...]
+
+    @classmethod
+    def read(cls, path: Path) -> Commands:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        rows = (Row(**row | {"seconds": tuple(row["seconds"])}) for row in data["rows"])
+        return cls(Machine.of(data["machine"]), data["command"], tuple(rows))
+
+    def write(self, path: Path) -> None:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")
+
+    def median(self, name: str) -> float | None:
+        return next((statistics.median(row.seconds) for row in self.rows if row.name == name), None)
+
+
+HEAD = ("measured", "n", "min (ms)", "median (ms)", "max (ms)", "peak (MiB)")
+
+
+def table(rows: Sequence[Row]) -> list[str]:
+    """Return rows as a table, with its head."""
+    ruler = "|".join(["---", *("---:" for _ in HEAD[1:])])
+    return [f"| {' | '.join(HEAD)} |", f"|{ruler}|", *(row.markdown() for row in rows)]
+
+
 def milliseconds(seconds: float) -> str:
     """Write a time with as many decimals as it takes to see it."""
     value = 1000 * seconds
@@ -49,7 +93,7 @@ def milliseconds(seconds: float) -> str:
 
 
 def process(name: str, arguments: Sequence[str], runs: int) -> Row:
-    """Run the program from its start to its exit, once to warm the file cache and then `runs` times."""
+    """Run the program, or other Python, to its exit, once to warm the file cache and then `runs` times."""
     measured = [run_once(arguments) for _ in range(runs + 1)][1:]
     return Row(name, tuple(seconds for seconds, _ in measured), max(peak for _, peak in measured))
 
@@ -60,7 +104,7 @@ def run_once(arguments: Sequence[str]) -> tuple[float, float]:
     Linux counts the memory of this process, up to the start of the other, into that peak: so processes
     come first, while this one holds nothing that they do not load too.
     """
-    command = [sys.executable, "-m", "foon_asp", *arguments]
+    command = [sys.executable, *arguments]
     started = time.perf_counter()
     child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(child.pid, 0)
@@ -70,6 +114,35 @@ def run_once(arguments: Sequence[str]) -> tuple[float, float]:
     if child.returncode not in (0, 1):
         raise SystemExit(f"exit status {child.returncode}: {' '.join(command)}")
     return seconds, usage.ru_maxrss / (1 << (20 if sys.platform == "darwin" else 10))
+
+
+def imports_of(arguments: Sequence[str]) -> list[str]:
+    """Return the modules that a command of the program has loaded at its end, in their order."""
+    command = [sys.executable, "-c", _LIST_MODULES, *arguments]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
+    return [name for name in said.splitlines() if importable(name)]
+
+
+_LIST_MODULES = """\
+import sys
+import foon_asp.cli.start, foon_asp.cli.signals
+from foon_asp.cli.main import main
+main()
+print(*sys.modules, sep="\\n", file=sys.stderr)
+"""
+
+
+def _import_all(names: Sequence[str]) -> str:
+    """Return a program that imports modules, and ends as the program does."""
+    return "\n".join([*(f"import {name}" for name in names), "import os", "os._exit(0)"])
+
+
+def importable(name: str) -> bool:
+    """Whether a module can be imported by its name alone: not where it is made up while others are."""
+    try:
+        return find_spec(name) is not None
+    except (ImportError, ValueError):
+        return False
 
 
 def timed(action: Callable[[], object]) -> float:
@@ -93,12 +166,12 @@ def parsing(runs: int) -> Row:
 
 def warm_retrieval() -> Row:
     """Retrieve each goal in this process; a goal's time is the median of its repeats."""
-    data = foon_asp.load(DATA)
-    domain = data.domain()
+    data = load(DATA)
+    world = data.world()
     medians = []
     for goal in data.goals:
-        foon_asp.retrieve(domain, goal)
-        again = partial(foon_asp.retrieve, domain, goal)
+        retrieve(world, Query(goal))
+        again = partial(retrieve, world, Query(goal))
         medians.append(statistics.median(timed(again) for _ in range(REPEATS)))
     return Row(f"retrieve one goal, each of {len(medians)} (median of {REPEATS})", tuple(medians))
 
@@ -106,29 +179,39 @@ def warm_retrieval() -> Row:
 def main() -> int:
     options = argparse.ArgumentParser(description="Measure retrieval and the audit on the public data.")
     options.add_argument("--runs", type=int, default=7, help="runs of each measurement (default: 7)")
-    runs: int = options.parse_args().runs
+    options.add_argument("--write", action="store_true", help="write the table into benchmarks/README.md")
+    options.add_argument("--output", type=Path, default=RESULTS / "commands.json", metavar="FILE")
+    chosen = options.parse_args()
+    runs: int = chosen.runs
     if not (DATA / "FOON.txt").exists():
         print(f"nothing measured: no FOON.txt in {DATA}; set FOON_PUBLIC_DATA", file=sys.stderr)
         return 0
-    goals = str(DATA / "goal_nodes.json")
-    data = ["--data", str(DATA)]
+    program, data = ["-m", "foon_asp"], ["--data", str(DATA)]
     subgraphs = sorted(map(str, (DATA.parent / "subgraphs").glob("*.txt")))
-    all_goals = ["retrieve", "--goals", goals, "--by", "units", "--format", "json", *data]
+    all_goals = ["--goals", str(DATA / "goal_nodes.json"), "--by", "units", "--format", "json"]
+    one = ["retrieve", GOAL, *data]
     rows = [
-        process("process: `retrieve --goals goal_nodes.json --by units --format json`", all_goals, runs),
-        process(f'process: `retrieve "{GOAL}"`', ["retrieve", GOAL, *data], runs),
-        process("process: `compare`", ["compare", *data], runs),
-        process("process: `audit FOON.txt`", ["audit", str(DATA / "FOON.txt")], runs),
-        process("process: `audit subgraphs/*.txt`", ["audit", *subgraphs], runs),
+        process(
+            "process: `retrieve --goals goal_nodes.json --by units --format json`",
+            [*program, "retrieve", *all_goals, *data],
+            runs,
+        ),
+        process(ONE, [*program, *one], runs),
+        process(IMPORTS, ["-c", _import_all(imports_of(one))], runs),
+        process(START, ["-c", ""], runs),
+        process(COMPARE, [*program, "compare", *data], runs),
+        process("process: `audit FOON.txt`", [*program, "audit", str(DATA / "FOON.txt")], runs),
+        process("process: `audit subgraphs/*.txt`", [*program, "audit", *subgraphs], runs),
         parsing(runs),
         warm_retrieval(),
     ]
-    print("| measured | n | min (ms) | median (ms) | max (ms) | peak (MiB) |")
-    print("|---|---:|---:|---:|---:|---:|")
-    for row in rows:
-        print(row.markdown())
-    print(f"\nMachine: {Machine.here()}.")
-    print(f"Command: `python benchmarks/retrieval.py --runs {runs}`")
+    machine, command = Machine.here(), f"python benchmarks/retrieval.py --runs {runs}"
+    Commands(machine, command, tuple(rows)).write(chosen.output)
+    if chosen.write:
+        put_table(ROOT / "benchmarks" / "README.md", "commands", table(rows))
+    else:
+        print("\n".join(table(rows)))
+    print(f"\nMachine: {machine}.\nCommand: `{command}`")
     return 0
 
 

@@ -2,10 +2,10 @@
 
     python benchmarks/run.py [SECTION …] [--quick]
 
-Sections: peers (the 25 public goals), peers-sample (every 30th object that can be made), peers-all (all of
-them, by the methods that take milliseconds), configurations, growth, throughput, report; the default is all
-of these. The report is always written at the end. `--quick` measures every section on a small scale, to see
-that it works.
+Sections: commands (whole processes), peers (the 25 public goals), peers-sample (every 30th object that can be
+made), peers-all (all of them, by the methods that take milliseconds), configurations, growth, throughput,
+report; the default is all of these. The report is always written at the end. `--quick` measures every section
+on a small scale, to see that it works.
 """
 
 from __future__ import annotations
@@ -25,23 +25,29 @@ def _more_peers(goals: str, *options: str) -> list[str]:
     return ["peers.py", "--goals", goals, *once, *options, "--output", out]
 
 
+_QUICKEST = (
+    *("clingo", "clingo-unreduced", "cp-sat", "cp-sat-reduced"),
+    *("integer-program", "integer-program-reduced"),
+)
 SECTIONS = {
+    "commands": ["retrieval.py", "--write"],
     "growth": ["growth.py"],
     "throughput": ["throughput.py"],
     "configurations": ["configurations.py"],
     "peers": ["peers.py", "--goals", "25"],
     "peers-sample": _more_peers("sample"),
-    "peers-all": _more_peers("all", "--methods", "clingo", "cp-sat", "integer-program"),
+    "peers-all": _more_peers("all", "--methods", *_QUICKEST),
 }
 QUICK = {
-    "growth": ["--sizes", "1000", "--runs", "1"],
+    "commands": ["--runs", "1"],
+    "growth": ["--sizes", "1000", "--runs", "1", "--goals", "10"],
     "throughput": ["--units", "1000"],
     "configurations": ["--sample", "2", "--only", "bb", "usc,oll,stratify"],
     "peers": ["--runs", "1", "--whole-runs", "0", "--everything-runs", "0"],
-    "peers-sample": ["--methods", "clingo", "cp-sat"],
+    "peers-sample": ["--methods", "clingo", "cp-sat", "cp-sat-reduced"],
     "peers-all": ["--methods", "clingo"],
 }
-USUAL = ("peers", "peers-sample", "peers-all", "configurations", "growth", "throughput")
+USUAL = ("commands", "peers", "peers-sample", "peers-all", "configurations", "growth", "throughput")
 
 
 def main() -> int:

@@ -23,12 +23,13 @@ import networkx as nx
 from generate import CUISINE
 from machine import DATA
 
-import foon_asp
-from foon_asp.dataset import read_foon
-from foon_asp.graph import Foon
-from foon_asp.kitchen import Kitchen
-from foon_asp.problem import Domain
-from foon_asp.text import write_text
+from foon_asp.io.folder import load, read_foon
+from foon_asp.io.text import write_text
+from foon_asp.model.foon import Foon
+from foon_asp.model.kitchen import Kitchen
+from foon_asp.model.node import ObjectId, UnitId
+from foon_asp.model.reachability import backward
+from foon_asp.model.world import World
 
 STRETCH = 33
 PARTS = (8, 18, 36, 54)
@@ -37,16 +38,16 @@ PARTS = (8, 18, 36, 54)
 Figures = dict[str, float]
 
 
-def shape(domain: Domain) -> Figures:
+def shape(world: World) -> Figures:
     """Measure a FOON seen from a kitchen."""
-    foon, reading, closure, stock = domain.foon, domain.reading, domain.closure, domain.stock
-    count = len(foon.units)
-    makers = _makers(domain)
-    makes = [sum(thing not in stock for thing in reading.makes[unit]) for unit in range(count)]
+    foon, reading, closure, stock = world.foon, world.units, world.closure, world.stock
+    every_unit = foon.units.ids
+    makers = _makers(world)
+    makes = [sum(thing not in stock for thing in reading.makes[unit]) for unit in every_unit]
     needs = [sum(thing not in stock for thing in reading.needs[unit]) for unit in closure.executable]
-    used = Counter(thing for unit in range(count) for thing in reading.needs[unit])
-    slices = _slices(domain, makers)
-    circles = _circles(domain, makers)
+    used = Counter(thing for unit in every_unit for thing in reading.needs[unit])
+    slices = _slices(world, makers)
+    circles = _circles(world, makers)
     inputs = [len(unit.inputs) for unit in foon.units]
     outputs = [len(unit.outputs) for unit in foon.units]
     states = Counter(min(4, len(node.states)) for node in foon.objects)
@@ -72,7 +73,7 @@ def shape(domain: Domain) -> Figures:
         "most uses of a kitchen object": max(used[thing] for thing in stock),
         "made objects a unit needs": statistics.mean(needs),
         "objects a unit makes": statistics.mean(makes),
-        "implied views": sum(inputs) - sum(len(reading.needs[unit]) for unit in range(count)),
+        "implied views": sum(inputs) - sum(len(reading.needs[unit]) for unit in every_unit),
         "units that can be executed": len(closure.executable),
         "rounds": max(closure.available.values()),
         "units in circles": sum(circles),
@@ -83,61 +84,61 @@ def shape(domain: Domain) -> Figures:
     }
 
 
-def _makers(domain: Domain) -> dict[int, list[int]]:
+def _makers(world: World) -> dict[ObjectId, list[UnitId]]:
     """Return the units that make each object that the kitchen does not have."""
-    found: dict[int, list[int]] = {}
-    for unit in range(len(domain.foon.units)):
-        for thing in domain.reading.makes[unit]:
-            if thing not in domain.stock:
+    found: dict[ObjectId, list[UnitId]] = {}
+    for unit in world.foon.units.ids:
+        for thing in world.units.makes[unit]:
+            if thing not in world.stock:
                 found.setdefault(thing, []).append(unit)
     return found
 
 
-def _slices(domain: Domain, makers: Collection[int]) -> list[int]:
+def _slices(world: World, makers: Collection[ObjectId]) -> list[int]:
     """Return, sorted, the sizes of the backward slices of all objects that can be made."""
-    goals = (thing for thing in makers if thing in domain.closure.available)
-    executable = domain.closure.executable
-    return sorted(len(domain.reading.backward([goal], domain.stock, executable)) for goal in goals)
+    goals = (thing for thing in makers if thing in world.closure.available)
+    executable = world.closure.executable
+    return sorted(len(backward(world.units, [goal], world.stock, executable)) for goal in goals)
 
 
-def _circles(domain: Domain, makers: dict[int, list[int]]) -> list[int]:
+def _circles(world: World, makers: dict[ObjectId, list[UnitId]]) -> list[int]:
     """Return the sizes of the circles among units that can be executed, each of two units or more."""
     graph = nx.DiGraph()
-    for unit in domain.closure.executable:
-        for need in domain.reading.needs[unit]:
-            before = (maker for maker in makers.get(need, ()) if maker in domain.closure.executable)
+    for unit in world.closure.executable:
+        for need in world.units.needs[unit]:
+            before = (maker for maker in makers.get(need, ()) if maker in world.closure.executable)
             graph.add_edges_from((maker, unit) for maker in before)
     return [len(part) for part in nx.strongly_connected_components(graph) if len(part) > 1]
 
 
-def growth(domain: Domain, folder: Path) -> Iterator[tuple[int, list[int]]]:
+def growth(world: World, folder: Path) -> Iterator[tuple[int, list[int]]]:
     """Yield, for growing parts of a FOON, how many units they have and their slices, sorted."""
-    units = domain.foon.units
+    units = world.foon.units
     stretches = [range(start, min(start + STRETCH, len(units))) for start in range(0, len(units), STRETCH)]
     for count in PARTS:
         chosen = random.Random(1).sample(stretches, count)
         path = folder / "part.txt"
-        part = write_text(domain.foon, (units[unit] for stretch in chosen for unit in stretch))
+        part = write_text(world.foon, (units[UnitId(unit)] for stretch in chosen for unit in stretch))
         path.write_text(part, encoding="utf-8")
-        found = _complete(read_foon([path]).foon, domain.kitchen)
+        found = _complete(read_foon([path]).foon, world.kitchen)
         yield len(found.foon.units), _slices(found, _makers(found))
 
 
-def _complete(foon: Foon, kitchen: Kitchen) -> Domain:
+def _complete(foon: Foon, kitchen: Kitchen) -> World:
     """Return a part of a FOON as a domain whose kitchen has what no unit of it makes, too."""
-    reading = Domain(foon, kitchen).reading
-    made = {thing for unit in range(len(foon.units)) for thing in reading.makes[unit]}
-    needed = {thing for unit in range(len(foon.units)) for thing in reading.needs[unit]}
+    reading = World.of(foon, kitchen).units
+    made = {thing for makes in reading.makes for thing in makes}
+    needed = {thing for needs in reading.needs for thing in needs}
     more = tuple(foon.objects[thing] for thing in sorted(needed - made))
-    return Domain(foon, Kitchen((*kitchen.objects, *more), kitchen.utensils))
+    return World.of(foon, Kitchen((*kitchen.objects, *more), kitchen.utensils))
 
 
 def _figures(folder: Path) -> Figures:
     """Return all figures of a data folder, those of its parts among them."""
-    domain = foon_asp.load(folder).domain()
-    figures = shape(domain)
+    world = load(folder).world()
+    figures = shape(world)
     with tempfile.TemporaryDirectory() as temporary:
-        for count, (units, slices) in zip(PARTS, growth(domain, Path(temporary)), strict=True):
+        for count, (units, slices) in zip(PARTS, growth(world, Path(temporary)), strict=True):
             name = f"{count} stretches"
             figures |= {f"{name}: units": units, f"{name}: slice, mean": statistics.mean(slices)}
             figures |= {f"{name}: slice, 50%": slices[len(slices) // 2]}

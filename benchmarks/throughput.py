@@ -24,11 +24,13 @@ from typing import Any
 
 from growth import SEED, prepare
 from machine import DATA, RESULTS, Machine
+from msgspec import to_builtins
 
-import foon_asp
-from foon_asp.files import read_objects
-from foon_asp.state_syntax import object_to_json
+from foon_asp.io.folder import load
+from foon_asp.io.kitchen import read_objects
+from foon_asp.io.object_wire import object_to_json
 
+PUBLIC = "universal FOON"
 JOBS = (1, 2)
 AGAIN = 20
 """How often the goals of the generated FOON are asked for."""
@@ -93,7 +95,7 @@ def _write(path: Path, goals: Iterable[object]) -> Path:
 def _run(queries: Path, jobs: int, data: Sequence[str]) -> tuple[float, float]:
     """Return the seconds and the peak memory of a run; every query must have an answer."""
     out = queries.with_suffix(".out")
-    command = [sys.executable, "-m", "foon_asp", "batch", "--queries", str(queries), "--out", str(out)]
+    command = [sys.executable, "-m", "foon_asp", "batch", "--queries", str(queries), "-o", str(out)]
     begun = time.perf_counter()
     process = subprocess.Popen(
         [*command, "--jobs", str(jobs), "--overwrite", *data], stderr=subprocess.DEVNULL
@@ -115,17 +117,19 @@ def main() -> None:
     options = parser.parse_args()
     rates = []
     if (DATA / "FOON.txt").exists():
-        domain = foon_asp.load(DATA).domain()
-        makeable = sorted(thing for thing in domain.closure.available if thing not in domain.stock)
-        goals = [object_to_json(domain.node(thing)) for thing in makeable]
-        rates += measure("universal FOON", len(domain.foon.units), goals, ["--data", str(DATA)])
+        world = load(DATA).world()
+        makeable = sorted(thing for thing in world.closure.available if thing not in world.stock)
+        goals = to_builtins([object_to_json(world.node(thing)) for thing in makeable])
+        rates += measure(PUBLIC, len(world.foon.units), goals, ["--data", str(DATA)])
     with tempfile.TemporaryDirectory() as temporary:
         folder = prepare("random", options.units, options.data_cache or Path(temporary))
         store = folder / "FOON.foon"
         if not store.exists():
             command = [sys.executable, "-m", "foon_asp", "compile", str(folder / "FOON.txt")]
             subprocess.run([*command, "-o", str(store)], check=True)
-        goals = [object_to_json(goal) for goal in read_objects(folder / "goal_nodes.json")] * AGAIN
+        goals = (
+            to_builtins([object_to_json(goal) for goal in read_objects(folder / "goal_nodes.json")]) * AGAIN
+        )
         name = f"generated, `random`, seed {SEED}"
         rates += measure(name, options.units, goals, ["--data", str(folder), "--foon", str(store)])
     said = f"python benchmarks/throughput.py --units {options.units}"

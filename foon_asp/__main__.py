@@ -1,7 +1,5 @@
 """`python -m foon_asp` is `foon-asp`."""
 
-import sys
+from foon_asp.cli.start import main
 
-from foon_asp.cli import main
-
-sys.exit(main())
+main()

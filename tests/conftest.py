@@ -1,38 +1,32 @@
-"""What several tests share: the built-in data, and the public data where it is there."""
+"""Fixtures of several layers."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
 
-import foon_asp
-from foon_asp.dataset import Dataset
-from foon_asp.problem import Domain
-
-ROOT = Path(__file__).parent.parent
-PUBLIC_DATA = Path(os.environ.get("FOON_PUBLIC_DATA", ROOT.parent / "shared" / "foon"))
+from foon_asp.io.folder import Dataset, load
+from foon_asp.io.open import open_files
+from foon_asp.io.store import write_store
+from foon_asp.model.world import World
+from support.paths import BUILT_IN
+from support.small_foons import world
 
 
 @pytest.fixture(scope="session")
 def built_in() -> Dataset:
-    return foon_asp.load()
+    return load()
 
 
-@pytest.fixture(scope="session")
-def public_data() -> Path:
-    """The folder of the public FOON data; tests that need it skip where it is absent."""
-    if not (PUBLIC_DATA / "universal" / "FOON.txt").exists():
-        pytest.skip(f"no public FOON data in {PUBLIC_DATA}; set FOON_PUBLIC_DATA")
-    return PUBLIC_DATA
+@pytest.fixture
+def store(tmp_path: Path) -> Path:
+    """Return a store of the built-in FOON."""
+    folder = tmp_path / "kb.foon"
+    write_store(open_files(BUILT_IN), folder, [BUILT_IN])
+    return folder
 
 
-@pytest.fixture(scope="session")
-def universal(public_data: Path) -> Dataset:
-    return foon_asp.load(public_data / "universal")
-
-
-@pytest.fixture(scope="session")
-def universal_domain(universal: Dataset) -> Domain:
-    return universal.domain()
+@pytest.fixture
+def kitchen() -> World:
+    return world(("onion + (knife) -cut-> onion[chopped]", "onion[chopped] -fry-> soup"), "onion + (knife)")

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, fields
+from dataclasses import fields
 from textwrap import wrap
-from typing import Any
 
-from foon_asp.criteria import Costs
-from foon_asp.errors import counted
-from foon_asp.explain import Deadlock, Explanation, Instead, MissingThing, Near, Step
-from foon_asp.graph import FunctionalUnit, ObjectNode
-from foon_asp.problem import Domain
-from foon_asp.render.json import unit_value
-from foon_asp.render.text import short_source
-from foon_asp.state_syntax import object_to_json
-from foon_asp.tree import TaskTree
+from foon_asp.model.node import FunctionalUnit, ObjectId, ObjectNode
+from foon_asp.model.world import World
+from foon_asp.query.objective import Costs
+from foon_asp.render.proof import limit_text
+from foon_asp.render.table import table
+from foon_asp.retrieval.explain import Deadlock, Explanation, MissingObject
+from foon_asp.retrieval.nearest import Near
+from foon_asp.retrieval.steps import Instead, StepRole
+from foon_asp.retrieval.tree import TaskTree
+from foon_asp.words import WIDTH, counted, short_source, wrapped
 
-_WIDTH = 100
 _TIE = "\xa0"
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
@@ -34,9 +33,10 @@ def explanation_text(explanation: Explanation, *, told: bool = False) -> str:
         return ("" if told else head) + _missing_text(explanation)
     if explanation.status == "constrained":
         return reason_text(explanation.goal, explanation.reason)
-    tree = explanation.retrieval.tree if explanation.retrieval else None
+    tree = explanation.answer.tree if explanation.answer else None
     if tree is None:
-        return f"{explanation.goal}\nno task tree was found before the time limit\n"
+        limit = limit_text(explanation.limit)
+        return f"{explanation.goal}\nno task tree was found before the {limit}\n"
     if not tree.units:
         return f"{explanation.goal}\nnothing to do: the kitchen has it\n"
     unproven = explanation.status == "limit"
@@ -61,10 +61,10 @@ def _missing_text(explanation: Explanation) -> str:
     if explanation.give_way:
         lines += ["", "Even then there is no task tree, unless these constraints give way:"]
         lines += [f"  {name}" for name in explanation.give_way]
-    named = {thing.node for thing in explanation.things}
+    named = {missing.node for missing in explanation.missing_objects}
     for deadlock in explanation.deadlocks:
-        lines += ["", *_circle_lines(explanation.domain, deadlock)]
-        if explanation.domain.node(deadlock.circle.things[0]) not in named:
+        lines += ["", *_circle_lines(explanation.world, deadlock)]
+        if explanation.world.node(deadlock.circle.objects[0]) not in named:
             lines += _near_lines(deadlock.near, "  ")
     return "".join(f"{line}\n" for line in lines)
 
@@ -72,10 +72,10 @@ def _missing_text(explanation: Explanation) -> str:
 def _set_lines(explanation: Explanation) -> list[str]:
     missing = explanation.missing
     assert missing is not None
-    things = {explanation.domain.id_of(thing.node): thing for thing in explanation.things}
+    by_id = {explanation.world.id_of(each.node): each for each in explanation.missing_objects}
     sets = [set(each) for each in missing.sets]
     common = set.intersection(*sets)
-    shared = _thing_lines(things[thing] for thing in _ordered(common, explanation.domain))
+    shared = _object_lines(by_id[object_id] for object_id in _ordered(common, explanation.world))
     size = len(missing.sets[0])
     if len(sets) == 1:
         proof = "" if missing.proven else " (not proven to be the least, but nothing of it is superfluous)"
@@ -87,8 +87,8 @@ def _set_lines(explanation: Explanation) -> list[str]:
     else:
         lines = [f"It could be made if the kitchen had one of these {len(sets)} choices:"]
     for place, each in enumerate(sets):
-        rest = [things[thing] for thing in _ordered(each - common, explanation.domain)]
-        names = [f"{thing.node}{_remark(thing)}" for thing in rest]
+        rest = [by_id[object_id] for object_id in _ordered(each - common, explanation.world)]
+        names = [f"{other.node}{_remark(other)}" for other in rest]
         lines += _listed(names, f"  {_letter(place)}) ", " " * 5)
     if not missing.complete:
         lines.append(f"There are more: no more than {len(sets)} were looked for.")
@@ -102,15 +102,7 @@ def _these(size: int) -> str:
 def _listed(names: Iterable[str], first: str, indent: str) -> list[str]:
     """Write names in lines, with semicolons; no name is broken."""
     text = "; ".join(name.replace(" ", _TIE) for name in names)
-    lines = wrap(
-        text,
-        _WIDTH,
-        initial_indent=first,
-        subsequent_indent=indent,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
-    return [line.replace(_TIE, " ") for line in lines]
+    return [line.replace(_TIE, " ") for line in wrapped(text, first, indent)]
 
 
 def _letter(place: int) -> str:
@@ -119,32 +111,32 @@ def _letter(place: int) -> str:
     return (_letter(more - 1) if more else "") + _LETTERS[place]
 
 
-def _ordered(things: Iterable[int], domain: Domain) -> list[int]:
-    """Bring food before utensils, and alike things together."""
+def _ordered(object_ids: Iterable[ObjectId], world: World) -> list[ObjectId]:
+    """Bring food before utensils, and alike objects together."""
 
-    def key(thing: int) -> tuple[bool, object]:
-        node = domain.node(thing)
-        return domain.is_tool(node), node.sort_key
+    def key(object_id: ObjectId) -> tuple[bool, object]:
+        node = world.node(object_id)
+        return world.is_tool(node), node.sort_key
 
-    return sorted(things, key=key)
+    return sorted(object_ids, key=key)
 
 
-def _remark(thing: MissingThing) -> str:
-    if thing.same_dish:
+def _remark(missing: MissingObject) -> str:
+    if missing.same_dish:
         return " (the same thing in another state or place)"
-    return "" if thing.raw else " (prepared)"
+    return "" if missing.raw else " (prepared)"
 
 
-def _thing_lines(things: Iterable[MissingThing]) -> list[str]:
+def _object_lines(objects: Iterable[MissingObject]) -> list[str]:
     lines = []
-    for thing in things:
-        lines.append(f"  {thing.node}{_remark(thing)}")
-        lines += _near_lines(thing.near, " " * 6)
+    for missing in objects:
+        lines.append(f"  {missing.node}{_remark(missing)}")
+        lines += _near_lines(missing.near, " " * 6)
     return lines
 
 
 def _near_lines(near: Sequence[Near], indent: str) -> list[str]:
-    """Say what there is that resembles a thing."""
+    """Say what there is that resembles an object."""
     lines = []
     for words, at_hand in (("the kitchen has ", True), ("the kitchen can make ", False)):
         names = [str(each.node) for each in near if each.at_hand == at_hand]
@@ -153,11 +145,11 @@ def _near_lines(near: Sequence[Near], indent: str) -> list[str]:
     return lines
 
 
-def _circle_lines(domain: Domain, deadlock: Deadlock) -> list[str]:
+def _circle_lines(world: World, deadlock: Deadlock) -> list[str]:
     """Tell a circle link by link."""
     circle = deadlock.circle
-    names = [domain.node(thing) for thing in circle.things]
-    units = [domain.foon.units[unit] for unit in circle.units]
+    names = [world.node(object_id) for object_id in circle.objects]
+    units = [world.foon.units[unit] for unit in circle.units]
     lines = ["This goes round in a circle:"]
     for place, unit in enumerate(units, 1):
         need = f"{names[place]}" if place < len(names) else f"{names[0]} again"
@@ -172,10 +164,11 @@ def _circle_lines(domain: Domain, deadlock: Deadlock) -> list[str]:
 
 
 def _place(unit: FunctionalUnit) -> str:
-    return unit.motion + (f" [{short_source(unit.source)}]" if unit.source.file else "")
+    source = unit.source
+    return unit.motion + (f" [{short_source(source.file, source.line)}]" if source.file else "")
 
 
-def _overview_lines(steps: Sequence[Step], tree: TaskTree, *, unproven: bool) -> list[str]:
+def _overview_lines(steps: Sequence[StepRole], tree: TaskTree, *, unproven: bool) -> list[str]:
     """Say in a line or two what each step is for."""
     lines = [counted(len(tree.units), "step") + (", not proven to be the fewest" if unproven else ""), ""]
     for step in steps:
@@ -184,7 +177,7 @@ def _overview_lines(steps: Sequence[Step], tree: TaskTree, *, unproven: bool) ->
     return lines
 
 
-def _step_lines(step: Step, tree: TaskTree) -> list[str]:
+def _step_lines(step: StepRole, tree: TaskTree) -> list[str]:
     lines = [f"step {step.place} of {len(tree.units)}: {_place(step.unit)}, unit {step.unit.id}", ""]
     taken = []
     for each in step.takes:
@@ -195,9 +188,9 @@ def _step_lines(step: Step, tree: TaskTree) -> list[str]:
     lines += _block("takes", taken)
     lines += _block("makes", _made_lines(step, tree, named=True))
     if len(step.way) > 1:
-        way = " → ".join(f"{place} {tree.steps[place - 1].motion}" for place in step.way)
-        goal = tree.domain.node(tree.goals[0]) if len(tree.goals) == 1 else "the goals"
-        lines += wrap(f"{way} → {goal}", _WIDTH, initial_indent="  so     ", subsequent_indent=" " * 9)
+        way = " → ".join(f"{place} {tree.functional_units[place - 1].motion}" for place in step.way)
+        goal = tree.world.node(tree.goals[0]) if len(tree.goals) == 1 else "the goals"
+        lines += wrap(f"{way} → {goal}", WIDTH, initial_indent="  so     ", subsequent_indent=" " * 9)
     return lines
 
 
@@ -205,7 +198,7 @@ def _block(word: str, rows: Sequence[str]) -> list[str]:
     return [f"  {word if not place else '':7}{row}" for place, row in enumerate(rows)]
 
 
-def _made_lines(step: Step, tree: TaskTree, *, named: bool) -> list[str]:
+def _made_lines(step: StepRole, tree: TaskTree, *, named: bool) -> list[str]:
     """Say what a step makes and for whom; what nobody takes comes last, if at all."""
     lines = []
     for made in step.makes:
@@ -225,25 +218,26 @@ def _made_lines(step: Step, tree: TaskTree, *, named: bool) -> list[str]:
 
 
 def _named(place: int, tree: TaskTree) -> str:
-    return f"step {place} ({tree.steps[place - 1].motion})"
+    return f"step {place} ({tree.functional_units[place - 1].motion})"
 
 
 def _instead_lines(instead: Instead, tree: TaskTree) -> list[str]:
-    other = instead.retrieval.tree
+    other = instead.answer.tree
     if other is None:
-        if instead.retrieval.status == "limit":
-            return ["without it: no task tree was found before the time limit"]
+        if instead.answer.status == "limit":
+            return [f"without it: no task tree was found before the {limit_text(instead.answer.limit)}"]
         return ["There is no task tree without it."]
-    lines = [f"{'':10}{'with it':>12}{'without it':>12}"]
-    lines += [
-        f"  {name:8}{_number(mine):>12}{_number(theirs):>12}"
+    rows = [("", "with it", "without it")]
+    rows += [
+        (f"  {name}", _number(mine), _number(theirs))
         for name, mine, theirs in _side_by_side(tree.costs, other.costs)
     ]
-    if instead.retrieval.status == "limit":
+    lines = table(rows, "<10", ">12", ">12", gap="")
+    if instead.answer.status == "limit":
         lines.append("(the time ran out: there may be a better tree without it)")
     places = {unit: place for place, unit in enumerate(tree.units, 1)}
     their_places = {unit: place for place, unit in enumerate(other.units, 1)}
-    units = tree.domain.foon.units
+    units = tree.world.foon.units
     lines += ["", f"without it these steps go ({len(instead.goes)}) and come ({len(instead.comes)}):"]
     lines += [f"  - {places[unit]:3}. {_place(units[unit])}, unit {unit}" for unit in instead.goes]
     lines += [f"  + {their_places[unit]:3}. {_place(units[unit])}, unit {unit}" for unit in instead.comes]
@@ -258,90 +252,3 @@ def _side_by_side(mine: Costs, theirs: Costs) -> list[tuple[str, float | None, f
 
 def _number(value: float | None) -> str:
     return "-" if value is None else f"{value:.3g}" if isinstance(value, float) else str(value)
-
-
-def explanation_value(explanation: Explanation) -> dict[str, Any]:
-    """Return the value that `explain --format json` writes."""
-    missing = explanation.missing
-    things = {explanation.domain.id_of(thing.node): place for place, thing in enumerate(explanation.things)}
-    tree = explanation.retrieval.tree if explanation.retrieval else None
-    return {
-        "goal": object_to_json(explanation.goal),
-        "status": explanation.status,
-        "reason": explanation.reason,
-        "missing": None
-        if missing is None
-        else {
-            "things": [_thing_value(thing) for thing in explanation.things],
-            "sets": [[things[number] for number in each] for each in missing.sets],
-            "proven": missing.proven,
-            "complete": missing.complete,
-        },
-        "circles": [_circle_value(explanation.domain, deadlock) for deadlock in explanation.deadlocks],
-        "nearest": [_near_value(near) for near in explanation.near],
-        "give_way": list(explanation.give_way),
-        "costs": asdict(tree.costs) if tree else None,
-        "steps": [_step_value(explanation.domain, step) for step in explanation.steps],
-        "instead": None if explanation.instead is None else _instead_value(explanation.instead),
-        "seconds": round(explanation.seconds, 6),
-    }
-
-
-def _thing_value(thing: MissingThing) -> dict[str, Any]:
-    return {
-        "object": object_to_json(thing.node),
-        "raw": thing.raw,
-        "same_dish": thing.same_dish,
-        "nearest": [_near_value(near) for near in thing.near],
-    }
-
-
-def _near_value(near: Near) -> dict[str, Any]:
-    return {"object": object_to_json(near.node), "at_hand": near.at_hand}
-
-
-def _circle_value(domain: Domain, deadlock: Deadlock) -> dict[str, Any]:
-    circle = deadlock.circle
-    nodes = [object_to_json(domain.node(thing)) for thing in circle.things]
-    return {
-        "links": [
-            {
-                "unit": unit_value(domain.foon, domain.foon.units[unit]),
-                "makes": nodes[place],
-                "needs": nodes[(place + 1) % len(nodes)],
-            }
-            for place, unit in enumerate(circle.units)
-        ],
-        "others": list(circle.others),
-        "nearest": [_near_value(near) for near in deadlock.near],
-    }
-
-
-def _step_value(domain: Domain, step: Step) -> dict[str, Any]:
-    return {
-        "step": step.place,
-        "unit": unit_value(domain.foon, step.unit),
-        "takes": [
-            {"object": object_to_json(each.node), "step": each.step, "at_hand": each.at_hand}
-            for each in step.takes
-        ],
-        "makes": [
-            {"object": object_to_json(each.node), "steps": list(each.steps), "goal": each.goal}
-            for each in step.makes
-        ],
-        "way": list(step.way),
-    }
-
-
-def _instead_value(instead: Instead) -> dict[str, Any]:
-    result = instead.retrieval
-    tree = result.tree
-    return {
-        "status": result.status,
-        "reason": result.reason,
-        "costs": asdict(tree.costs) if tree else None,
-        "goes": list(instead.goes),
-        "comes": [unit_value(tree.domain.foon, tree.domain.foon.units[unit]) for unit in instead.comes]
-        if tree
-        else [],
-    }

@@ -1,55 +1,26 @@
-"""Statistics as text and as a JSON value."""
+"""Statistics as a page."""
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import Any
-
-from foon_asp.state_syntax import object_to_json
-from foon_asp.stats import Centralities, Statistics
-
-
-def statistics_value(counts: Statistics, central: Centralities | None) -> dict[str, Any]:
-    """Return the value that `stats --format json` writes."""
-    value: dict[str, Any] = {
-        "units_read": counts.units_read,
-        "units": counts.units,
-        "duplicates": counts.duplicates,
-        "objects": counts.objects,
-        "labels": counts.labels,
-        "motions": counts.motions,
-        "findings": dict(counts.findings),
-        "levels": {
-            str(level): {"units": units, "objects": objects}
-            for level, (units, objects) in counts.levels.items()
-        },
-        "degrees": asdict(counts.degrees),
-        "most_used": {
-            "objects": [
-                {"object": object_to_json(node), "count": count} for node, count in counts.most_used_objects
-            ],
-            "motions": [{"motion": motion, "count": count} for motion, count in counts.most_used_motions],
-        },
-    }
-    if central is not None:
-        value["centrality"] = {
-            "edges": central.edges,
-            "eigenvalue": central.eigenvalue,
-            "alpha": central.alpha,
-            **{
-                name: [
-                    {"object": object_to_json(node), "value": number}
-                    for node, number in getattr(central, name).top
-                ]
-                for name in ("degree", "katz", "eigenvector")
-            },
-        }
-    return value
+from foon_asp.audit.stats import Centralities, Statistics
+from foon_asp.render.table import Cell, table
 
 
 def statistics_text(counts: Statistics, central: Centralities | None) -> str:
     """Write the statistics as a page."""
     findings = sum(counts.findings.values())
+    levels: list[tuple[Cell, ...]] = [("level", "units", "objects")]
+    levels += [(level, units, objects) for level, (units, objects) in counts.levels.items()]
+    degrees: list[tuple[Cell, ...]] = [("degrees", "mean", "maximum")]
+    degrees += [
+        (name, f"{spread.mean:.2f}", spread.maximum)
+        for name, spread in (
+            ("units that make an object", counts.degrees.makers),
+            ("units that use an object", counts.degrees.users),
+            ("inputs of a unit", counts.degrees.inputs),
+            ("outputs of a unit", counts.degrees.outputs),
+        )
+    ]
     lines = [
         f"units read  {counts.units_read:7}   (duplicates removed: {counts.duplicates})",
         f"units       {counts.units:7}",
@@ -58,22 +29,14 @@ def statistics_text(counts: Statistics, central: Centralities | None) -> str:
         f"motions     {counts.motions:7}",
         f"findings    {findings:7}   (in reading; foon-asp audit finds more)",
         "",
-        "level      units  objects",
-        *(f"{level:5} {units:10} {objects:8}" for level, (units, objects) in counts.levels.items()),
+        *table(levels, ">5", ">10", ">8", gap=" "),
         "",
-        "degrees                      mean  maximum",
+        *table(degrees, "<25", ">8", ">8", gap=" "),
     ]
-    for name, spread in (
-        ("units that make an object", counts.degrees.makers),
-        ("units that use an object", counts.degrees.users),
-        ("inputs of a unit", counts.degrees.inputs),
-        ("outputs of a unit", counts.degrees.outputs),
-    ):
-        lines.append(f"{name:25} {spread.mean:8.2f} {spread.maximum:8}")
     lines += ["", "most used objects"]
-    lines += [f"{count:6}  {node}" for node, count in counts.most_used_objects]
+    lines += table([(count, str(node)) for node, count in counts.most_used_objects], ">6")
     lines += ["", "most used motions"]
-    lines += [f"{count:6}  {motion}" for motion, count in counts.most_used_motions]
+    lines += table([(count, motion) for motion, count in counts.most_used_motions], ">6")
     if central is not None:
         lines += ["", f"one-mode projection: {central.edges} edges, largest eigenvalue {central.eigenvalue}"]
         for title, measure in (
@@ -82,5 +45,5 @@ def statistics_text(counts: Statistics, central: Centralities | None) -> str:
             ("eigenvector centrality", central.eigenvector),
         ):
             lines += ["", title]
-            lines += [f"{value:9.6f}  {node}" for node, value in measure.top]
+            lines += table([(f"{value:.6f}", str(node)) for node, value in measure.top], ">9")
     return "\n".join(lines) + "\n"

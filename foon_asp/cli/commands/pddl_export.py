@@ -1,0 +1,50 @@
+"""`foon-asp pddl export`: a planning domain, a problem and a map of their names."""
+
+from __future__ import annotations
+
+import argparse
+
+from foon_asp.cli import options as add
+from foon_asp.cli.inputs import find_goals, open_world
+from foon_asp.cli.output import Reply, check_targets, folder_to_write
+from foon_asp.cli.parser import Parser
+from foon_asp.model.consumption import Effects
+from foon_asp.planning.pddl.styles import document
+from foon_asp.planning.pddl.task import planning_task
+from foon_asp.planning.pddl.write import FILES, export
+from foon_asp.query.objective import Criterion
+from foon_asp.query.problem import Problem
+from foon_asp.words import counted
+
+
+def configure(parser: Parser) -> None:
+    """Add the options."""
+    add.world(parser)
+    add.goal(parser, "+")
+    parser.add_argument(
+        "--style",
+        choices=("objects", "lifted"),
+        default="objects",
+        help="objects (default): a fluent for each object, an action for each unit; lifted: typed, readable",
+    )
+    add.semantics(parser)
+    add.criterion(parser)
+    parser.add_argument(
+        "--durative", action="store_true", help="durative actions of PDDL 2.1, with annotated times"
+    )
+    add.whole(parser)
+    add.files(parser, "DIR", f"a folder for {', '.join(FILES)}")
+
+
+def run(options: argparse.Namespace) -> Reply:
+    """Write the files."""
+    folder = folder_to_write(options)
+    check_targets(options, *(folder / name for name in FILES))
+    world = open_world(options)
+    goals = tuple(map(world.id_of, find_goals(options, world)))
+    problem = Problem(world, goals, whole=options.whole)
+    criterion = None if options.by is None else Criterion.parse(options.by)
+    task = planning_task(problem, Effects(world, options.semantics), criterion)
+    written = document(task, options.style, options.durative)
+    export(written, folder)
+    return Reply(summary=f"{folder}/: {', '.join(FILES)} ({counted(len(written.actions), 'action')})")

@@ -1,0 +1,149 @@
+"""What the options name to be read: data, a kitchen, goals; and warnings of what cannot be meant."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from foon_asp.cli.messages import shown, warn
+from foon_asp.cli.unknown_words import warn_of_unknown_words
+from foon_asp.errors import QueryError
+from foon_asp.io.findings import Finding, Severity
+from foon_asp.io.folder import Dataset, Sources, foon_files
+from foon_asp.io.kitchen import read_objects
+from foon_asp.io.trees import STDIN
+from foon_asp.io.unknown_words import nearest
+from foon_asp.model.node import ObjectNode
+from foon_asp.model.world import World
+from foon_asp.query.goals import Named, find_object
+from foon_asp.resources import diets
+from foon_asp.values import said
+from foon_asp.words import cut
+
+_FILES = (
+    *(
+        "foon",
+        "files",
+        "kitchen",
+        "rates",
+        "costs",
+        "utensils",
+        "goals",
+        "only_motions",
+        "constraint",
+        "objective",
+    ),
+    *("file", "plan", "names", "queries", "trees", "states", "locations", "motions"),
+)
+"""The options that name files to read."""
+
+
+def paths_to_read(options: argparse.Namespace) -> list[Path]:
+    """Return all that the options name to be read: files, stores, and what is read of a data folder."""
+    found: list[Path] = []
+    for name in _FILES:
+        value = getattr(options, name, None)
+        found += (
+            Path(each) for each in ([value] if isinstance(value, str) else value or ()) if each != STDIN
+        )
+    found += (Path(name) for name in getattr(options, "diets", ()) if name not in diets())
+    if hasattr(options, "foon"):
+        found += sources(options).paths
+    elif getattr(options, "data", None) is not None:
+        found += foon_files(Path(options.data))
+    return found
+
+
+def sources(options: argparse.Namespace) -> Sources:
+    """Return the files that the options name; what lies beside the first file of a command belongs to it."""
+    files: Sequence[str] = getattr(options, "files", ())
+    return Sources.of(
+        str(Path(files[0]).parent) if files and options.data is None else options.data,
+        foon=files or options.foon,
+        kitchen=options.kitchen,
+        rates=options.rates,
+        costs=options.costs,
+        utensils=options.utensils,
+        default_rate=options.default_rate,
+        default_cost=options.default_cost,
+        strict_format=options.strict_format,
+        strict=options.strict,
+        match_relations=options.match_relations,
+        level=options.level,
+    )
+
+
+def open_world(options: argparse.Namespace) -> World:
+    """Open the data as a world, and warn of what cannot be meant."""
+    return open_data(options)[1]
+
+
+def open_data(options: argparse.Namespace) -> tuple[Dataset, World]:
+    """Open the data and the world that they are, and warn of what cannot be meant."""
+    dataset = sources(options).load()
+    warn_of_losses(options, dataset.findings)
+    world = dataset.world()
+    count = shown(options, len(world.strangers))
+    for node in world.strangers[:count]:
+        warn(options, f"the kitchen has {node}, which the FOON does not know{nearest(world, node)}")
+    if len(world.strangers) > count:
+        warn(options, f"and {len(world.strangers) - count} more objects that the FOON does not know")
+    warn_of_unknown_words(options, dataset, world.full)
+    if not dataset.kitchen.objects:
+        warn(options, "the kitchen is empty, nothing is at hand; name one with --kitchen")
+    _check_quotes(world, getattr(options, "goal", None))
+    return dataset, world
+
+
+def _check_quotes(world: World, goals: object) -> None:
+    """Raise `QueryError` if several goals are the words of one."""
+    if not isinstance(goals, list) or len(goals) < 2:
+        return
+    unknown = next((goal for goal in goals if not _is_known(world, goal)), None)
+    whole = " ".join(goals)
+    if unknown is not None and _is_known(world, whole):
+        raise QueryError(
+            f"{said(unknown)} is no goal; put a goal of several words into quotes: {cut(repr(whole))}"
+        )
+
+
+def _is_known(world: World, goal: str) -> bool:
+    try:
+        find_object(world, goal)
+    except QueryError:
+        return False
+    return True
+
+
+def warn_of_losses(options: argparse.Namespace, findings: Sequence[Finding]) -> None:
+    """Warn of whatever in a file could not be read."""
+    for finding in findings:
+        if finding.severity is Severity.ERROR:
+            warn(options, f"{finding.file}:{finding.line}: {finding.message}")
+
+
+def cut_off(findings: Iterable[Finding]) -> bool:
+    """Tell whether a file ended before its end: then the exit status says so, too."""
+    return any(finding.code == "broken-json" for finding in findings)
+
+
+def named_goals(options: argparse.Namespace) -> list[Named]:
+    """Return the goals that were named one by one and in a file."""
+    one_by_one = [options.goal] if isinstance(options.goal, str) else options.goal or []
+    return [*one_by_one, *listed_goals(options)]
+
+
+def listed_goals(options: argparse.Namespace) -> list[ObjectNode]:
+    """Return the goals of the file of goals; none without one."""
+    if getattr(options, "goals", None) is None:
+        return []
+    listed = read_objects(Path(options.goals))
+    if not listed:
+        raise QueryError(f"{options.goals}: the list of goals is empty")
+    return listed
+
+
+def find_goals(options: argparse.Namespace, world: World) -> list[ObjectNode]:
+    """Return the goals that were named, as nodes of a world."""
+    return [find_object(world, goal) for goal in named_goals(options)]

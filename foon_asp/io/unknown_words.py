@@ -1,0 +1,95 @@
+"""What stands beside a FOON and is unknown to it: objects, goals, and words that are probably misspelt.
+
+A table of rates, a list of utensils or a diet may rightly know more than one FOON does. So a word that is
+near to nothing is left alone. An object of the kitchen or a goal is told whatever it is near to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from foon_asp.io.findings import Finding, Severity
+from foon_asp.io.folder import Dataset, Sources
+from foon_asp.model.node import ObjectNode
+from foon_asp.model.world import World
+from foon_asp.words import alike, closest
+
+_NEAR = 0.75
+"""How much a word must resemble a known one to be taken for it, of 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """The words of a file, and those that the FOON knows of the kind.
+
+    `beside` says that it was made for the FOON: named by the user, or beside it in its folder.
+    """
+
+    name: str
+    what: str
+    words: Collection[str]
+    known: Collection[str]
+    beside: bool = True
+
+    def misspelt(self) -> Iterator[tuple[str, str]]:
+        """Yield the words that are probably misspelt, each with what is near."""
+        for word in sorted(set(self.words).difference(self.known)):
+            near = alike(word, self.known, 1, _NEAR)
+            # What another FOON has beside what is near is another word: crank, beside crack.
+            if near and (self.beside or near[0] not in self.words):
+                yield word, near[0]
+
+
+def unknown(dataset: Dataset, world: World) -> Iterator[Finding]:
+    """Yield what the files beside a FOON name and the FOON, seen in full, does not know."""
+    beside = dataset.sources.beside
+    for node in world.strangers if dataset.kitchen.stated else ():
+        message = f"the kitchen has {node}, which the FOON does not know{nearest(world, node)}"
+        yield Finding("unknown-object", Severity.WARNING, beside["kitchen.json"], 0, message)
+    for node in unknown_goals(world):
+        message = f"the goal {node} is no object of this FOON{nearest(world, node)}"
+        yield Finding("unknown-goal", Severity.WARNING, beside["goal_nodes.json"], 0, message)
+    for words in (rates(dataset, world), utensils(dataset, world)):
+        for word, near in words.misspelt():
+            message = f"the FOON does not know {word!r} (closest: {near})"
+            yield Finding("unknown-word", Severity.WARNING, words.name, 0, message)
+
+
+def unknown_goals(world: World) -> list[ObjectNode]:
+    """Return the goals of a world that are no objects of it."""
+    return [goal for goal in world.goals if world.foon.id_of(goal) is None and goal not in world.strangers]
+
+
+def rates(dataset: Dataset, world: World) -> Words:
+    """Return the motions that have rates."""
+    name, beside = _file(dataset.sources, "motion.txt")
+    return Words(name, "motions", dataset.kitchen.rates, world.foon.motions, beside)
+
+
+def utensils(dataset: Dataset, world: World) -> Words:
+    """Return the labels of utensils; those of the FOON are only looked up if there are some."""
+    name, beside = _file(dataset.sources, "utensils.txt")
+    words = dataset.kitchen.utensils
+    return Words(name, "labels", words, known_labels(world) if words else (), beside)
+
+
+def known_labels(world: World) -> Collection[str]:
+    """Return all labels that the FOON and the kitchen name."""
+    return world.foon.named_labels | {label for node in world.strangers for label in node.named_labels}
+
+
+def nearest(world: World, node: ObjectNode) -> str:
+    """Return the closest node, looking for the label first: that is quick and what people mistype."""
+    same_label = [str(other) for other in world.foon.labelled(node.label)]
+    if same_label:
+        return closest(str(node), same_label, 1) or f"; there is {same_label[0]}"
+    return closest(node.label, world.foon.labels, 1)
+
+
+def _file(sources: Sources, usual: str) -> tuple[str, bool]:
+    """Return the name of a file beside the FOON, and whether it was made for it."""
+    name, folder = sources.beside.get(usual, ""), Path(sources.folder)
+    of_folder = any(folder in (Path(path), Path(path).parent) for path in sources.foon)
+    return name, of_folder or Path(name) != folder / usual

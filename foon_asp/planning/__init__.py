@@ -1,0 +1,1 @@
+"""Plans, in which objects are used up."""

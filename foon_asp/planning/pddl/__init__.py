@@ -1,0 +1,1 @@
+"""PDDL: written, and plans read back."""

@@ -1,0 +1,32 @@
+"""What a planner is asked: the units that can matter for a plan."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from foon_asp.model.consumption import Effects
+from foon_asp.model.node import ObjectId, UnitId
+from foon_asp.model.reachability import backward
+from foon_asp.query.problem import Problem
+
+
+class PlanProblem(Problem):
+    """A problem with the units that can matter for a plan.
+
+    That the kitchen holds an object which it counts does not make its makers superfluous: it can run out.
+    """
+
+    def __init__(self, effects: Effects, goals: tuple[ObjectId, ...]) -> None:
+        super().__init__(effects.world, goals)
+        self.effects = effects
+
+    @cached_property
+    def units(self) -> list[UnitId]:
+        """Ids of the units given to the solver, in file order.
+
+        Other units make nothing that a goal or one of these needs, or only give back what they take, so a
+        plan can do without them.
+        """
+        world, effects = self.world, self.effects
+        units = backward(world.units, self.goals, effects.endless, world.closure.executable)
+        return [unit for unit in units if effects.makes_a_difference(unit)]

@@ -1,0 +1,127 @@
+"""What may be replaced where something is missing, and by whose word."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from foon_asp.errors import InputError, QueryError
+from foon_asp.io.kitchen import rows
+from foon_asp.io.similar import ingredient_vectors
+from foon_asp.model.node import check_label
+from foon_asp.model.similarity import Likeness, Similar, Similarity, Table, Words
+from foon_asp.model.world import World
+from foon_asp.numbers import LIKENESS
+from foon_asp.values import a_list, said
+
+SOURCES = ("foon", "vectors")
+"""What tells which labels are alike, beside a table: the FOON itself, and vectors of ingredients."""
+
+
+@dataclass(frozen=True, slots=True)
+class Replacement:
+    """A label, and what replaces it or may; None if it is left out. `why` says who says so.
+
+    `likeness` is above 0 and at most 1, and how well the one stands for the other.
+    """
+
+    label: str
+    by: str | None
+    likeness: float
+    why: str = "as the table says"
+
+    def __post_init__(self) -> None:
+        """Raise `QueryError` for what no replacement can be; labels are in lower case."""
+        for name in ("label", "by", "why"):
+            value = getattr(self, name)
+            if name == "by" and value is None:
+                continue
+            check_label(value, f"{name!r} of a replacement")
+            if name != "why":
+                object.__setattr__(self, name, value.strip().lower())
+        object.__setattr__(self, "likeness", LIKENESS.checked(self.likeness, "likeness"))
+        if self.label == self.by:
+            raise QueryError(f"{said(self.label)} is replaced by itself")
+
+    @property
+    def cost(self) -> int:
+        """What it costs, as `encodings/criteria/likeness.lp` has it: thousandths short of 1, at least 1."""
+        return max(1, round(1000 * (1 - self.likeness)))
+
+    def __str__(self) -> str:
+        what = f"{self.label} is left out" if self.by is None else f"{self.by} instead of {self.label}"
+        return f"{what} ({self.likeness:.3g}: {self.why})"
+
+
+Given = str | Replacement
+"""A source by its name, or a replacement that may be made."""
+
+
+@dataclass(frozen=True, slots=True)
+class Substitution:
+    """Which replacements may be made: those of a table, and those that some sources say.
+
+    A table is trusted most, then vectors, then the FOON: the first that knows a pair of labels judges it.
+    """
+
+    sources: frozenset[str] = frozenset()
+    table: tuple[Replacement, ...] = ()
+
+    @classmethod
+    def of(cls, given: bool | str | Iterable[Given] | Substitution | None) -> Substitution | None:
+        """Read what people give: sources and replacements, or one source; True is the FOON itself.
+
+        Nothing at all, or False, is no substitution. Raises `QueryError`.
+        """
+        if given is None or given is False or isinstance(given, Substitution):
+            return given or None
+        names = ["foon"] if given is True else [given] if isinstance(given, str) else given
+        listed = a_list(names, "substitute", "sources and replacements")
+        table = tuple(each for each in listed if isinstance(each, Replacement))
+        sources = [each for each in listed if not isinstance(each, Replacement)]
+        for source in sources:
+            if source not in SOURCES:
+                raise QueryError(f"'substitute' goes by {' or '.join(SOURCES)}, not by {said(source)}")
+        pairs = [(row.label, row.by) for row in table]
+        for label, by in pairs:
+            if pairs.count((label, by)) > 1:
+                raise QueryError(f"two likenesses of {said(label)} and {said(by)}; keep one")
+        return cls(frozenset(sources), table)
+
+    def similar(self, world: World) -> Similar:
+        """Return the measure of labels in a world, the most trusted first."""
+        pairs = {(row.label, row.by): Likeness(row.likeness, row.why) for row in self.table if row.by}
+        measures: list[Similarity] = [Table(pairs)]
+        if "vectors" in self.sources:
+            measures.append(Words(ingredient_vectors()))
+        if "foon" in self.sources:
+            measures.append(world.uses)
+        return Similar(measures)
+
+    def check(self, world: World) -> None:
+        """Raise `QueryError` for a table that replaces utensils, or makes some of them."""
+        for row in self.table:
+            for label in (row.label, row.by):
+                if label in world.kitchen.utensils:
+                    raise QueryError(f"{said(label)} is a utensil; only food is replaced")
+
+
+def read_substitutes(path: Path) -> list[Replacement]:
+    """Read lines of `label<tab>replaced by<tab>likeness<tab>note`; the note may be left out.
+
+    What replaces a label may be `-`: then it may be left out. Each pair stands once.
+    """
+    found: dict[tuple[str, str | None], Replacement] = {}
+    for line, text in rows(path):
+        fields = [field.strip() for field in text.split("\t")]
+        try:
+            label, by, likeness, note = fields if len(fields) > 3 else [*fields, ""]
+            value = LIKENESS.read(likeness)
+            row = Replacement(label, None if by == "-" else by, value, note or "as the table says")
+        except (ValueError, QueryError):
+            advice = "write label<tab>replaced by<tab>likeness<tab>note, the likeness above 0 and at most 1"
+            raise InputError(path, line, f"cannot read {said(text)}", advice) from None
+        if found.setdefault((row.label, row.by), row) is not row:
+            raise InputError(path, line, f"{said(label)} by {said(by)} stands twice", "keep one of the lines")
+    return list(found.values())

@@ -1,0 +1,1 @@
+"""Task trees, and everything asked about them."""

@@ -1,0 +1,332 @@
+"""Trees in which something is replaced: for goals of which there is no tree otherwise.
+
+`encodings/retrieval/substitute.lp` says what such a tree is. Here it is worked out what may be
+replaced and which units can matter then, and the tree that is found is replayed with all replacements made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from functools import cached_property
+from itertools import chain
+
+from foon_asp import limits
+from foon_asp.asp.model import Model
+from foon_asp.asp.program import optimisers, too_deep
+from foon_asp.asp.terms import quote
+from foon_asp.errors import InternalError
+from foon_asp.model.foon import Added, FoonBuilder
+from foon_asp.model.node import FunctionalUnit, ObjectId, ObjectNode, UnitId
+from foon_asp.model.replacing import Differences, Replaced, Shape, matches, replaced, shape
+from foon_asp.model.units import Units
+from foon_asp.model.world import World
+from foon_asp.query.checks import check_objective
+from foon_asp.query.objective import Objective
+from foon_asp.query.problem import Problem
+from foon_asp.query.status import Status
+from foon_asp.query.substitution import Replacement, Substitution
+from foon_asp.query.tariff import tariffs
+from foon_asp.retrieval.methods.found import NOTHING, Found
+from foon_asp.retrieval.methods.proven import gaps, own_payments
+from foon_asp.retrieval.tree import Record, TaskTree, likeliest_to_fail
+
+_ENCODINGS = ("retrieval/substitute.lp", "criteria/likeness.lp")
+
+
+def substituted(problem: Problem, objective: Objective, substitution: Substitution) -> Found:
+    """Return the tree with the likest replacements, and of those the best by an objective, proven.
+
+    At a limit it is the best until then, with nothing proven.
+    """
+    space = _Space(problem, substitution)
+    posed = space.problem
+    if posed is None:
+        return NOTHING
+    every = check_objective(posed, objective).complete
+    priced = tariffs(posed, every)
+    best: Model | None = None
+    for control in optimisers(posed, priced, encodings=_ENCODINGS, extra_facts=space.facts()):
+        answers = [control.first] if limits.limited_now() else []
+        for answer in (each() for each in (*answers, control.best)):
+            if answer.atoms is not None:
+                best = answer
+            elif answer.proven:
+                return NOTHING
+        if not answer.proven:
+            tree = None if best is None else space.tree(best)
+            return Found(Status.LIMIT, tree, limit=answer.limit)
+        if not too_deep(answer):
+            break
+    tree = space.tree(answer)
+    own = own_payments(answer, control) if problem.constraints.rules else {}
+    return Found(Status.OPTIMAL, tree, gaps(posed, priced[: len(objective)], tree, answer), own)
+
+
+class _Space:
+    """What may be replaced in the trees of a problem: labels, objects that may become the same, and units."""
+
+    def __init__(self, problem: Problem, substitution: Substitution) -> None:
+        self._asked = problem
+        self._world = problem.world
+        self._similar = substitution.similar(problem.world)
+        self._left_out = {row.label: row for row in substitution.table if row.by is None}
+        goals = map(self._world.node, problem.goals)
+        self._kept = self._world.kitchen.utensils.union(*map(self._dish, goals))
+        self._known: dict[str, dict[str | None, Replacement]] = {}
+        self._matched: dict[ObjectId, dict[ObjectId, set[Differences]]] = {}
+
+    def _dish(self, goal: ObjectNode) -> Iterable[str]:
+        """Return what is never replaced of a goal: its label or, where that is a vessel, its only content."""
+        vessel = goal.label in self._world.kitchen.utensils
+        return goal.contents if vessel and len(set(goal.contents)) == 1 else [goal.label]
+
+    @cached_property
+    def _food(self) -> list[str]:
+        world = self._world
+        named = world.foon.named_labels.union(*(node.named_labels for node in world.strangers))
+        return sorted(named - world.kitchen.utensils)
+
+    def _replacements(self, label: str) -> dict[str | None, Replacement]:
+        """Return what may replace a label, and how well."""
+        if label not in self._known:
+            found: dict[str | None, Replacement] = {}
+            if label not in self._kept:
+                for by, likeness in self._similar.replacements(label, self._food):
+                    found[by] = Replacement(label, by, likeness.value, likeness.why)
+                if label in self._left_out:
+                    found[None] = self._left_out[label]
+            self._known[label] = found
+        return self._known[label]
+
+    @cached_property
+    def _united(self) -> dict[str, set[str]]:
+        """For each label those that may become the same: one replaces the other."""
+        united: dict[str, set[str]] = {}
+        for label in self._food:
+            for by in self._replacements(label):
+                if by is not None:
+                    united.setdefault(label, set()).add(by)
+                    united.setdefault(by, set()).add(label)
+        return united
+
+    def _may_unite(self, one: str, other: str) -> bool:
+        return other in self._united.get(one, ())
+
+    def _changeable(self, number: ObjectId) -> bool:
+        """Whether an object names a label that may be replaced."""
+        return any(map(self._replacements, self._world.node(number).named_labels))
+
+    @cached_property
+    def _sources(self) -> dict[tuple[Shape, str], list[ObjectId]]:
+        """The objects of each shape and label that are at hand or that units make."""
+        found: dict[tuple[Shape, str], list[ObjectId]] = {}
+        makers = self._world.units.makers
+        for number in self._world.ids:
+            node = self._world.node(number)
+            form = shape(node)
+            if form is not None and (number in self._world.stock or number in makers):
+                found.setdefault((form, node.label), []).append(number)
+        return found
+
+    def _matches(self, number: ObjectId) -> dict[ObjectId, set[Differences]]:
+        """Return the objects that may become the same as one, and the ways in which they may."""
+        if number not in self._matched:
+            node = self._world.node(number)
+            form = shape(node)
+            ways: dict[ObjectId, set[Differences]] = {}
+            labels = (node.label, *sorted(self._united.get(node.label, ()))) if form is not None else ()
+            for other in chain.from_iterable(self._sources.get((form or (), label), ()) for label in labels):
+                limits.check()
+                if other != number and (found := matches(node, self._world.node(other), self._may_unite)):
+                    ways[other] = found
+            self._matched[number] = ways
+        return self._matched[number]
+
+    def _makers(self, number: ObjectId) -> Iterable[UnitId]:
+        makers = self._world.units.makers
+        return makers.of(number) if number in makers else ()
+
+    @cached_property
+    def _wanted(self) -> tuple[set[UnitId], set[ObjectId]]:
+        """The units and objects that can matter, whatever the kitchen has."""
+        world, demanded = self._world, self._asked.constraints.use_units
+        needs = world.units.needs
+        units: set[UnitId] = set(demanded)
+        rest = [*self._asked.goals, *(need for unit in demanded for need in needs[unit])]
+        seen = set(rest)
+        while rest:
+            number = rest.pop()
+            if number in world.stock and not self._changeable(number):
+                continue
+            more = {*self._matches(number)}
+            for unit in self._makers(number):
+                if unit not in units:
+                    units.add(unit)
+                    more.update(needs[unit])
+            rest += sorted(more - seen)
+            seen |= more
+        return units, seen
+
+    @cached_property
+    def problem(self) -> Problem | None:
+        """The problem with the units that matter and may be executed; None if a goal is then out of reach.
+
+        Its kitchen has only what no replacement changes.
+        """
+        world = self._world
+        units, wanted = self._wanted
+        reading = world.units
+        users: dict[ObjectId, list[UnitId]] = {}
+        alike: dict[ObjectId, list[ObjectId]] = {}
+        for number in wanted:
+            for other in self._matches(number):
+                alike.setdefault(other, []).append(number)
+        lacking = {unit: set(reading.needs[unit]) for unit in units}
+        for unit, needs in lacking.items():
+            for need in needs:
+                users.setdefault(need, []).append(unit)
+        done = [unit for unit, needs in lacking.items() if not needs]
+        fresh = [number for number in wanted if number in world.stock or self._droppable(number)]
+        available = set(fresh)
+        executable: set[UnitId] = set()
+        while fresh or done:
+            while done:
+                unit = done.pop()
+                executable.add(unit)
+                fresh += [number for number in reading.makes[unit] if number not in available]
+                available.update(fresh)
+            while fresh:
+                number = fresh.pop()
+                more = [other for other in alike.get(number, ()) if other not in available]
+                available.update(more)
+                fresh += more
+                for unit in users.get(number, ()):
+                    lacking[unit].discard(number)
+                    if not lacking[unit] and unit not in executable:
+                        done.append(unit)
+        demanded = set(self._asked.constraints.use_units)
+        if not (available >= set(self._asked.goals) and executable >= demanded):
+            return None
+        plain = [world.node(number) for number in world.stock if not self._changeable(number)]
+        return replace(self._asked, world=world.with_stock(plain), among=tuple(sorted(executable)))
+
+    def _droppable(self, number: ObjectId) -> bool:
+        return None in self._replacements(self._world.node(number).label)
+
+    def facts(self) -> str:
+        """Return what `substitute.lp` takes beside the facts of the problem."""
+        return "".join(f"{fact}\n" for fact in self._facts())
+
+    def _facts(self) -> Iterator[str]:
+        assert self.problem is not None
+        world = self._world
+        units = self.problem.units
+        listed = {*self._asked.goals, *(need for unit in units for need in world.units.needs[unit])}
+        made = {number for unit in units for number in world.units.makes[unit]}
+        stored: set[ObjectId] = {number for number in listed if number in world.stock}
+        labels: set[str] = {label for n in (*listed, *made) for label in world.node(n).named_labels}
+        count = 0
+        for number in sorted(listed):
+            if self._droppable(number):
+                yield f"called({number},{quote(world.node(number).label)})."
+            for other, ways in self._matches(number).items():
+                if other in world.stock:
+                    stored.add(other)
+                elif other not in made:
+                    continue
+                labels.update(world.node(other).named_labels)
+                for way in sorted(ways, key=sorted):
+                    count += 1
+                    pairs = (f"differs({count},{quote(one)},{quote(two)})." for one, two in sorted(way))
+                    yield " ".join([f"match({count},{number},{other}).", *pairs])
+        for label in sorted(labels):
+            for by, row in self._replacements(label).items():
+                yield f"alike({quote(label)},{'nothing' if by is None else quote(by)},{row.cost})."
+        for number in sorted(stored):
+            named = sorted({label for label in world.node(number).named_labels if self._replacements(label)})
+            yield " ".join([f"stored({number}).", *(f"names({number},{quote(label)})." for label in named)])
+        for unit in units:
+            for label in sorted(self._brought(world.foon.units[unit])):
+                yield f"brings({unit},{quote(label)})."
+
+    def _brought(self, unit: FunctionalUnit) -> set[str]:
+        """Return the labels that a unit brings about of others, and that may be replaced."""
+        world = self._world
+        before = {label for number in unit.inputs for label in world.node(number).named_labels}
+        behind = {label for n in world.units.makes[unit.id] for label in world.node(n).named_labels}
+        return {label for label in behind - before if self._replacements(label)}
+
+    def tree(self, model: Model) -> TaskTree:
+        """Return the tree of a model with all replacements made, replayed.
+
+        Raises `InternalError` if it cannot be executed.
+        """
+        rows = [
+            self._replacements(str(label))[str(by) if isinstance(by, str) else None]
+            for label, by in model.rows("replace")
+        ]
+        units, human = (list(map(UnitId, model.column(name))) for name in ("use", "human"))
+        for most in model.column("split"):
+            human = likeliest_to_fail(self._world, units, most)
+        return made_with(self._world, self._asked.goals, units, human, rows)
+
+
+def made_with(
+    world: World,
+    goals: Iterable[ObjectId],
+    units: Iterable[UnitId],
+    human: Iterable[UnitId],
+    rows: Iterable[Replacement],
+) -> TaskTree:
+    """Return the tree of some units with replacements made, in a small world that has these units alone.
+
+    It costs what the units cost as they were annotated. Raises `InternalError` if it cannot be executed.
+    """
+    rows = tuple(sorted(rows, key=lambda row: row.label))
+    labels: Replaced = {row.label: row.by for row in rows}
+    builder = FoonBuilder()
+    gone = {label for label, by in labels.items() if by is None}
+    goals = tuple(goals)
+    own: dict[UnitId, UnitId] = {}
+    for number in units:
+        unit = world.foon.units[number]
+        # A vessel that was implied by what it held is not there without it.
+        views = set(unit.inputs) - set(world.units.needs[number])
+        taken = [n for n in unit.inputs if not (n in views and gone & set(world.node(n).named_labels))]
+        inputs, outputs = (
+            [builder.object(node) for node in _replaced(world, side, labels)]
+            for side in (taken, unit.outputs)
+        )
+        note = replace(unit.annotation, marks=())
+        made, added = builder.unit(unit.motion, inputs, outputs, note)
+        if added is Added.NEW:
+            own[made] = number
+    wanted = _replaced(world, goals, labels)
+    for goal in wanted:
+        builder.object(goal)
+    reading = Units(
+        builder.build(),
+        world.kitchen.utensils,
+        strict=world.strict,
+        labels_only=world.labels_only,
+        match_relations=world.match_relations,
+    )
+    small = World(reading, world.kitchen)
+    done = set(human)
+    tree = TaskTree.of(
+        small, map(small.id_of, wanted), list(own), [made for made, number in own.items() if number in done]
+    )
+    if not tree.executable:
+        missing = ", ".join(map(str, tree.replay.missing))
+        raise InternalError(f"a task tree with replacements fails its replay: {missing} is missing")
+    numbers = tuple(own[made] for made in tree.units)
+    plain = TaskTree.of(world, goals, numbers, done)
+    record = Record(numbers, replace(plain.costs, depth=tree.depth), tree.depth)
+    return replace(tree, record=record, replacements=rows)
+
+
+def _replaced(world: World, numbers: Iterable[ObjectId], labels: Replaced) -> list[ObjectNode]:
+    """Return what some objects become, but for those that are left out."""
+    nodes = (replaced(world.node(number), labels) for number in numbers)
+    return [node for node in nodes if node is not None]

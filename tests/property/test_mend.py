@@ -1,0 +1,180 @@
+"""The fewest edits of a tree: all sets of few edits are tried on small trees."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from hypothesis import event, given
+from hypothesis import strategies as st
+
+from foon_asp.model.node import ObjectNode, State, UnitId
+from foon_asp.model.world import World
+from foon_asp.retrieval.judge import purpose
+from foon_asp.retrieval.mend import Mending, mend
+from support import brute_force
+from support.small_foons import domains, many, world
+
+_MOST = 2
+"""How many edits are tried."""
+
+
+@dataclass(frozen=True)
+class _Step:
+    """What a step lists now; `original`: it was in the tree; `open_`: what was not changed of it."""
+
+    inputs: tuple[ObjectNode, ...]
+    outputs: tuple[ObjectNode, ...]
+    original: bool = True
+    moved: bool = False
+    open_: frozenset[tuple[bool, int]] = frozenset()
+
+
+_Tree = tuple[_Step, ...]
+
+
+def _step(where: World, number: UnitId, *, original: bool) -> _Step:
+    unit = where.foon.units[number]
+    inputs, outputs = (tuple(map(where.node, side)) for side in (unit.inputs, unit.outputs))
+    ports = [*((True, place) for place in range(len(inputs))), *((False, p) for p in range(len(outputs)))]
+    return _Step(inputs, outputs, original, open_=frozenset(ports if original else ()))
+
+
+def _distance(one: ObjectNode, other: ObjectNode) -> int | None:
+    """Count states and places that change, by hand."""
+    if one.label != other.label or one == other:
+        return None
+
+    def parts(thing: ObjectNode) -> tuple[set[State], set[State], set[State]]:
+        full = {state for state in thing.states if state.contents is not None}
+        placed = {state for state in thing.states if state.relatum is not None} - full
+        return full, placed, set(thing.states) - full - placed
+
+    (full, placed, plain), (full_, placed_, plain_) = parts(one), parts(other)
+    if full != full_:
+        return None
+    return max(len(placed - placed_), len(placed_ - placed)) + max(len(plain - plain_), len(plain_ - plain))
+
+
+def _edited(where: World, known: int, tree: _Tree) -> Iterator[tuple[int, int, _Tree]]:
+    """Yield each tree after one edit, with what that costs and how many steps it inserts."""
+    universe = [where.node(number) for number in where.ids]
+    for place, step in enumerate(tree):
+        rest = tree[:place] + tree[place + 1 :]
+        if not step.original:
+            continue
+        yield 1, 0, rest
+        if not step.moved:
+            for to in range(len(tree)):
+                yield 1, 0, (*rest[:to], replace(step, moved=True), *rest[to:])
+        for before, port in step.open_:
+            side = step.inputs if before else step.outputs
+            for other in universe:
+                cost = _distance(side[port], other)
+                if cost is not None and cost <= _MOST:
+                    now = (*side[:port], other, *side[port + 1 :])
+                    left = step.open_ - {(before, port)}
+                    changed = (
+                        replace(step, inputs=now, open_=left)
+                        if before
+                        else replace(step, outputs=now, open_=left)
+                    )
+                    yield cost, 0, (*tree[:place], changed, *tree[place + 1 :])
+    for unit in list(where.foon.units.ids)[:known]:
+        for to in range(len(tree) + 1):
+            yield 1, 1, (*tree[:to], _step(where, unit, original=False), *tree[to:])
+
+
+def _works(where: World, tree: _Tree, goals: Sequence[ObjectNode]) -> bool:
+    at_hand = set(where.kitchen.objects)
+    for step in tree:
+        if not brute_force.needed(where, step.inputs) <= at_hand:
+            return False
+        at_hand |= {thing for thing in step.outputs if thing.states}
+    return set(goals) <= at_hand
+
+
+def _fewest(where: World, known: int, tree: _Tree, goals: Sequence[ObjectNode]) -> tuple[int, int] | None:
+    """Return the fewest edits, and the fewest inserted steps with so many, by trying all with few edits."""
+    costs = {tree: (0, 0)}
+    frontier = {tree}
+    while frontier:
+        new = set()
+        for each in frontier:
+            spent, inserted = costs[each]
+            for cost, inserts, after in _edited(where, known, each) if spent < _MOST else ():
+                paid = (spent + cost, inserted + inserts)
+                if paid[0] <= _MOST and paid < costs.get(after, (_MOST + 1, 0)):
+                    costs[after] = paid
+                    new.add(after)
+        frontier = new
+    return min((paid for each, paid in costs.items() if _works(where, each, goals)), default=None)
+
+
+@st.composite
+def _trees(draw: st.DrawFn) -> tuple[World, tuple[UnitId, ...], int]:
+    """Draw a FOON in a kitchen, some of its units in some order, and how many of its units are known."""
+    where = draw(domains(strict=False))
+    ids = list(where.foon.units.ids)
+    things = list(where.foon.objects)
+    more = draw(st.lists(st.sampled_from(things), max_size=len(things) - 1, unique=True))
+    where = where.with_stock((*where.kitchen.objects, *more))
+    order = draw(st.lists(st.sampled_from(ids), min_size=1, max_size=4))
+    return where, tuple(order), draw(st.integers(0, min(3, len(ids))))
+
+
+def _replays(where: World, found: Mending, goals: Sequence[ObjectNode]) -> bool:
+    steps = []
+    for unit in found.functional_units:
+        inputs, outputs = (tuple(found.foon.objects[n] for n in side) for side in (unit.inputs, unit.outputs))
+        steps.append(_Step(inputs, outputs))
+    return _works(where, tuple(steps), goals)
+
+
+@given(_trees())
+@many(250)
+def test_there_are_no_fewer_edits(drawn: tuple[World, tuple[UnitId, ...], int]) -> None:
+    where, order, known = drawn
+    ids = purpose(where, order, ())
+    goals = [where.node(goal) for goal in ids]
+    found = mend(where, known, order, ids)
+    assert found.proven
+    if found.edits is not None:
+        assert _replays(where, found, goals)
+    tree = tuple(_step(where, number, original=True) for number in order)
+    fewest = _fewest(where, known, tree, goals)
+    event(f"fewest: {None if fewest is None else fewest[0]}")
+    if found.edits is None or found.cost > _MOST:
+        assert fewest is None
+    else:
+        inserts = sum(edit.kind == "insert" for edit in found.edits)
+        assert fewest == (found.cost, inserts)
+
+
+def test_each_kind_of_edit() -> None:
+    units = ["a -boil-> b", "b -cook-> c", "c -eat-> d", "x -melt-> y"]
+    where = world(units, "a")
+    boil, cook, eat, melt = where.foon.units.ids
+
+    def kinds(*order: UnitId, known: int = 0) -> list[tuple[str, int | None, int | None]]:
+        found = mend(where, known, order, purpose(where, order, ()))
+        assert found.proven
+        return [(edit.kind, edit.step, edit.to) for edit in found.edits or ()]
+
+    assert kinds(boil, cook, eat) == []
+    assert kinds(cook, boil, eat) == [("move", 1, 2)]
+    assert kinds(boil, eat, known=2) == [("insert", None, 2)]
+    assert kinds(eat, boil, cook) == [("move", 1, 3)]
+    assert kinds(boil, melt, cook) == [("remove", 2, None)]
+    assert mend(where, 0, (boil, eat), purpose(where, (boil, eat), ())).edits is None
+
+
+def test_a_state_is_changed_where_that_is_least() -> None:
+    where = world(
+        ["onion[whole] -chop-> onion[chopped]", "onion[chopped,fried] -serve-> dish"], "onion[whole]"
+    )
+    order = tuple(where.foon.units.ids)
+    found = mend(where, 0, order, purpose(where, order, ()))
+    [edit] = found.edits or ()
+    assert (edit.kind, edit.step, edit.side, edit.cost) == ("change", 1, "output", 1)
+    assert (str(edit.before), str(edit.after)) == ("onion [chopped]", "onion [chopped, fried]")

@@ -1,0 +1,1 @@
+"""What tests share: small FOONs, brute force, the command line."""
