@@ -19,6 +19,9 @@ from foon_asp.errors import InputError
 from foon_asp.io.files import read_string
 from foon_asp.words import closest
 
+_MOST = 100_000
+"""How many characters of rules are read: clingo's syntax tree takes up to 2 s for so many in Python."""
+
 _PLACE = re.compile(r"<string>:(\d+):(\d+)(?:-[\d:]+)?: (?:error|info): (.*)", re.DOTALL)
 
 
@@ -99,9 +102,12 @@ def _checked(text: str, path: str, meant_for: str) -> Rules:
     text = scanned(text, path)
     used = _Predicates()
     refusals = Refusals(text, path, purpose)
-    names = {name for name, _ in purpose.heads}
+    rules = without_repeated_facts(text, {name for name, _ in purpose.heads})
+    if len(rules.strip()) - rules.count("\n") > _MOST:
+        problem = f"the rules have more than {_MOST:,} characters beside facts of which each fills a line"
+        raise InputError(path, None, problem, "say what differs in facts, and once what follows from them")
     try:
-        for statement in _parse(without_repeated_facts(text, names), path):
+        for statement in _parse(rules, path):
             refusals.check(statement)
             used.visit(statement)
     except RecursionError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from foon_asp import resources
@@ -12,12 +12,14 @@ from foon_asp.asp.model import Value
 from foon_asp.asp.solver import open_solver
 from foon_asp.audit.locks import Lock, find_locks
 from foon_asp.io.findings import Finding, Severity
+from foon_asp.limits import Limit, LimitReachedError, check, limited, reached
 from foon_asp.model.foon import Foon
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import FunctionalUnit, ObjectId, ObjectNode, UnitId
 from foon_asp.model.spelling import misspellings
 from foon_asp.model.world import World
 from foon_asp.query.problem import Problem
+from foon_asp.query.status import Status
 from foon_asp.retrieval.missing import missing_sets
 from foon_asp.words import closest, counted, shortened
 
@@ -36,11 +38,20 @@ class LockedGoal:
 
 @dataclass(frozen=True, slots=True)
 class Audit:
-    """All findings, sorted by place; the locks, the one that opens most first; the locked goals."""
+    """All findings, sorted by place; the locks, the one that opens most first; the locked goals.
+
+    At a `limit` they are those that were found before, and what locked goals miss need not be the least.
+    """
 
     findings: tuple[Finding, ...]
     locks: tuple[Lock, ...]
     locked_goals: tuple[LockedGoal, ...]
+    limit: Limit | None = None
+
+    @property
+    def status(self) -> Status:
+        """How the audit ended: with all that there is to find, or at a limit."""
+        return Status.LIMIT if self.limit else Status.FOUND
 
 
 def audit(
@@ -48,35 +59,71 @@ def audit(
     kitchen: Kitchen | None = None,
     goals: Iterable[ObjectNode] = (),
     findings: Iterable[Finding] = (),
+    *,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
 ) -> Audit:
     """Find what is doubtful in a FOON, beside the `findings` of reading it.
 
     Without a kitchen everything that no unit makes is taken to be at hand; with an empty one, nothing is.
+    The limits (seconds, megabytes) are for all of it.
     """
-    kitchen = kitchen or Kitchen((), stated=False)
-    named_kitchen = kitchen.stated
-    if not named_kitchen:
-        raw = {number for unit in foon.units for number in unit.inputs}
-        made = {number for unit in foon.units for number in unit.outputs if not foon.objects[number].bare}
-        objects = tuple(foon.objects[number] for number in sorted(raw - made))
-        kitchen = replace(kitchen, objects=objects)
-    world = World.of(foon, kitchen)
-    known_goals = [goal for goal in goals if foon.id_of(goal) is not None]
-    locks = list(find_locks(world, known_goals))
-    locked = [
-        _locked_goal(world, goal) for goal in known_goals if world.id_of(goal) not in world.closure.available
-    ]
-    found = [
-        *findings,
-        *_spelling_findings(foon),
-        *_rate_findings(foon, kitchen),
-        *_time_findings(foon),
-        *_graph_findings(world, named_kitchen),
-        *(_lock_finding(lock) for lock in locks),
-        *(_goal_finding(world, each) for each in locked),
-    ]
-    found.sort(key=lambda finding: (finding.file, finding.line, finding.code, finding.message))
-    return Audit(tuple(found), tuple(locks), tuple(locked))
+    with limited(time_limit, memory_limit):
+        search = _Search(foon, kitchen or Kitchen((), stated=False), tuple(goals), list(findings))
+        return search.run()
+
+
+class _Search:
+    """One audit: what has been found so far."""
+
+    def __init__(
+        self, foon: Foon, kitchen: Kitchen, goals: tuple[ObjectNode, ...], findings: list[Finding]
+    ) -> None:
+        if not kitchen.stated:
+            raw = {number for unit in foon.units for number in unit.inputs}
+            made = {number for unit in foon.units for number in unit.outputs if not foon.objects[number].bare}
+            objects = tuple(foon.objects[number] for number in sorted(raw - made))
+            kitchen = replace(kitchen, objects=objects)
+        self._world = World.of(foon, kitchen)
+        self._goals = [goal for goal in goals if foon.id_of(goal) is not None]
+        self._findings = findings
+        self._locks: list[Lock] = []
+        self._locked: list[LockedGoal] = []
+
+    def run(self) -> Audit:
+        """Look for one kind of findings after the other, those that take least first."""
+        limit = None
+        foon, kitchen = self._world.foon, self._world.kitchen
+        kinds: tuple[Callable[[], Iterator[Finding]], ...] = (
+            lambda: _time_findings(foon),
+            lambda: _rate_findings(foon, kitchen),
+            lambda: _spelling_findings(foon),
+            lambda: _graph_findings(self._world, kitchen.stated),
+            self._find_locks,
+            self._find_locked_goals,
+        )
+        try:
+            for kind in kinds:
+                check()
+                for finding in kind():
+                    self._findings.append(finding)
+        except LimitReachedError as error:
+            limit = error.limit
+        found = sorted(self._findings, key=lambda each: (each.file, each.line, each.code, each.message))
+        return Audit(tuple(found), tuple(self._locks), tuple(self._locked), limit)
+
+    def _find_locks(self) -> Iterator[Finding]:
+        for lock in find_locks(self._world, self._goals):
+            self._locks.append(lock)
+            yield _lock_finding(lock)
+
+    def _find_locked_goals(self) -> Iterator[Finding]:
+        for goal in self._goals:
+            if self._world.id_of(goal) not in self._world.closure.available:
+                if limit := reached():
+                    raise LimitReachedError(limit)
+                self._locked.append(_locked_goal(self._world, goal))
+                yield _goal_finding(self._world, self._locked[-1])
 
 
 def _finding(code: str, severity: Severity, unit: FunctionalUnit, message: str, mend: str = "") -> Finding:

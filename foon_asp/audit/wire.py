@@ -9,7 +9,7 @@ from msgspec import UNSET, Meta, UnsetType, field
 
 from foon_asp.io.findings import ODDITIES, Finding
 from foon_asp.io.object_wire import ObjectJson, object_to_json
-from foon_asp.io.wire import FEW, UNIQUE, Amount, Count, JsonObject, Place, Text, means, word
+from foon_asp.io.wire import FEW, UNIQUE, Amount, Count, JsonObject, LimitName, Place, Text, means, word
 
 if TYPE_CHECKING:
     # The answers import this module, to write themselves.
@@ -160,6 +160,7 @@ class AuditJson(JsonObject):
         ),
     ]
     locked_goals: Annotated[list[LockedGoalJson], means("The goals that the kitchen can never make.")]
+    limit: LimitName
 
 
 def audit_json(report: Audit) -> AuditJson:
@@ -168,6 +169,7 @@ def audit_json(report: Audit) -> AuditJson:
         findings=[_finding(finding) for finding in report.findings],
         locks=[_lock(lock) for lock in report.locks],
         locked_goals=[_locked_goal(locked) for locked in report.locked_goals],
+        limit=report.limit,
     )
 
 

@@ -6,6 +6,7 @@ from collections import Counter
 
 from foon_asp.audit.audit import Audit
 from foon_asp.io.findings import Finding, Severity
+from foon_asp.limits import ended
 from foon_asp.render.table import table
 from foon_asp.words import counted
 
@@ -19,6 +20,8 @@ def audit_text(report: Audit, least: Severity) -> str:
     total = ", ".join(counted(counts[severity], severity.word) for severity in reversed(Severity))
     hidden = len(report.findings) - len(shown)
     lines.append(f"{total}" + (f" ({hidden} not shown)" if hidden else ""))
+    if report.limit:
+        lines.append(f"{ended(report.limit)}: there may be more to find")
     return "\n".join(lines) + "\n"
 
 

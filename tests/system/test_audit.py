@@ -10,9 +10,11 @@ from foon_asp.audit.audit import Audit, audit
 from foon_asp.io.findings import Severity
 from foon_asp.io.folder import Dataset
 from foon_asp.io.text import TextReader
+from foon_asp.limits import Limit
 from foon_asp.model.foon import Foon, FoonBuilder
 from foon_asp.model.kitchen import Kitchen
-from foon_asp.model.node import ObjectNode
+from foon_asp.model.node import ObjectNode, State
+from foon_asp.render.audit import audit_text
 from support.cli import run_json
 
 
@@ -120,3 +122,15 @@ def test_what_was_probably_meant_is_proposed() -> None:
 def test_built_in_data_has_no_error_and_no_warning(built_in: Dataset) -> None:
     report = audit(built_in.foon, built_in.kitchen, built_in.goals, built_in.findings)
     assert [str(f) for f in report.findings if f.severity > Severity.NOTE] == []
+
+
+def test_at_a_limit_there_is_what_was_found_before() -> None:
+    text = unit("a/raw", "cut", "a/cut") + unit("a/raw", "put", "a/in [a]")
+    goal = ObjectNode("a", (State("cut"),))
+    whole = audit(read(text), Kitchen(()), [goal])
+    assert whole.limit is None
+    assert [each.goal for each in whole.locked_goals] == [goal]
+    cut = audit(read(text), Kitchen(()), [goal], time_limit=1e-9)
+    assert (cut.limit, cut.status.exit_code, cut.locked_goals) == (Limit.TIME, 3, ())
+    assert set(cut.findings) < set(whole.findings)
+    assert audit_text(cut, Severity.NOTE).endswith("the time ran out: there may be more to find\n")

@@ -33,7 +33,7 @@ FOREVER = "p(0). p(X+1) :- p(X)."
 HUGE = "p(1..1000000000)."
 MANY = "p(X,Y,Z,W) :- X = 1..300, Y = 1..300, Z = 1..300, W = 1..300."
 CRASHES = "p(-2147483647-1). q(X/(-1)) :- p(X)."
-PATIENCE = 15.0
+PATIENCE = 30.0
 """Seconds after which a limit of one or two was none, be the machine as busy as it may."""
 
 

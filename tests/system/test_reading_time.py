@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from foon_asp.asp.rules import check_rules
 from foon_asp.audit.audit import audit
 from foon_asp.audit.unlock import edits
 from foon_asp.errors import FoonError
@@ -67,10 +68,10 @@ PIECES = [
 
 
 def seconds_to_read(text: str) -> float:
-    started = time.monotonic()
+    started = time.process_time()
     with suppress(FoonError):
         FoonReader().read_data(text.encode(), Path("x.txt"))
-    return time.monotonic() - started
+    return time.process_time() - started
 
 
 @pytest.mark.parametrize("head", HEADS)
@@ -105,25 +106,45 @@ def test_long_goals(built_in: Dataset, head: str, size: int) -> None:
     for piece in GOAL_PIECES:
         for tail in ("", " [b"):
             text = head + piece * ((size - len(head) - len(tail)) // len(piece)) + tail
-            started = time.monotonic()
+            started = time.process_time()
             with suppress(FoonError):
                 find_object(world, text)
             with suppress(FoonError):
                 written_object(text)
-            assert time.monotonic() - started < LIMIT / 10, (piece, tail)
+            assert time.process_time() - started < LIMIT / 10, (piece, tail)
 
 
 def test_a_flag_behind_a_long_label() -> None:
     assert seconds_to_read("O\t" + "O " * 75_000 + "\t" + "0" * 150_000 + "1\u00a0" + UNIT) < LIMIT
 
 
+RULE_PIECES = ["use(1;", "p(X) :- use(X). ", 'violated("x",1) :- use(1).\n', "%", "a:-b.", "f(", "1+", '"a",']
+
+
+@pytest.mark.parametrize("piece", RULE_PIECES)
+@pytest.mark.parametrize("size", [60_000, SIZE])
+def test_long_rules(piece: str, size: int) -> None:
+    started = time.process_time()
+    with suppress(FoonError):
+        check_rules("a :- " + piece * (size // len(piece)))
+    assert time.process_time() - started < LIMIT
+
+
+def test_a_table_of_facts_is_as_long_as_it_likes() -> None:
+    started = time.process_time()
+    check_rules("".join(f'calories("food {number}",{number}).\n' for number in range(20_000)))
+    assert time.process_time() - started < LIMIT
+    with pytest.raises(FoonError, match="more than 100,000 characters beside facts"):
+        check_rules("".join(f"p({number}) :- q.\n" for number in range(20_000)))
+
+
 def test_a_long_plan_of_many_names(tmp_path: Path) -> None:
     names = Names({}, {f"do-{number}": UnitId(number) for number in range(50_000)})
     path = tmp_path / "plan"
     path.write_text("".join(f"(do-{number % 50_000})\n" for number in range(80_000)))
-    started = time.monotonic()
+    started = time.process_time()
     assert len(read_plan(path, names)) == 80_000
-    assert time.monotonic() - started < LIMIT
+    assert time.process_time() - started < LIMIT
 
 
 @pytest.mark.parametrize("uses", [1, 9])
@@ -134,17 +155,17 @@ def test_many_words_with_the_same_first_letter(uses: int) -> None:
         "a" + "".join(letters[number >> shift & 7] for shift in range(0, 24, 3)) for number in range(8000)
     ]
     counts = Counter({word: 1 if place % 2 else uses for place, word in enumerate(words)})
-    started = time.monotonic()
+    started = time.process_time()
     found = list(misspellings(counts, ()))
-    assert time.monotonic() - started < LIMIT
+    assert time.process_time() - started < LIMIT
     assert bool(found) == (uses > 5)
 
 
 def test_two_long_words_that_differ_in_a_letter() -> None:
     one, other = "a" * 8000, "a" * 4000 + "b" + "a" * 3999
-    started = time.monotonic()
+    started = time.process_time()
     list(misspellings(Counter({one: 1, other: 9}), ()))
-    assert time.monotonic() - started < LIMIT
+    assert time.process_time() - started < LIMIT
 
 
 WORDS = [f"a{number:04x}{number * 7919 % 4096:03x}" for number in range(1500)]
@@ -160,9 +181,9 @@ def test_unknown_words_that_are_like_known_ones(names: list[str], others: list[s
     reader = FoonReader()
     text = "".join(f"O\t{name}\nS\tin\t[{other}]\nM\t{other}\nO\tb\n//\n" for name, other in units)
     reader.read_data(text.encode(), Path("x.txt"))
-    started = time.monotonic()
+    started = time.process_time()
     report = audit(reader.finish().foon, Kitchen((), rates=dict.fromkeys(names, 0.5)))
-    assert time.monotonic() - started < LIMIT
+    assert time.process_time() - started < LIMIT
     for code in ("unknown-label", "motion-without-rate"):
         found = [finding.message for finding in report.findings if finding.code == code]
         assert len(found) == len(names)
@@ -188,7 +209,7 @@ def test_many_units_that_never_run(shape: str) -> None:
         needs, makes = (builder.object(ObjectNode.of(str(each), [State("ready")])) for each in (need, made))
         builder.unit("x", [needs], [makes], Annotation())
     world = World.of(builder.build(), Kitchen(()))
-    started = time.monotonic()
+    started = time.process_time()
     opened = sum(len(edit.opened) for edit in edits(world))
-    assert time.monotonic() - started < LIMIT
+    assert time.process_time() - started < LIMIT
     assert opened == len(RECIPES[shape])

@@ -52,6 +52,7 @@ def configure(parser: Parser) -> None:
         "--fix", action="store_true", help="write NAME.fixed beside each file with certain mends"
     )
     parser.add_argument("--fix-dir", metavar="DIR", help="write repaired copies into this folder instead")
+    add.limits(parser, "for the whole audit")
     add.output(parser, "text", "json", "sarif")
 
 
@@ -65,13 +66,21 @@ def run(options: argparse.Namespace) -> Reply:
     if fixing:
         _fix_all(options)
     findings = [*dataset.findings, *unknown(dataset, dataset.world(level=FULL))]
-    report = audit(dataset.foon, dataset.kitchen, dataset.goals, findings)
+    report = audit(
+        dataset.foon,
+        dataset.kitchen,
+        dataset.goals,
+        findings,
+        time_limit=options.time_limit,
+        memory_limit=options.memory_limit,
+    )
     worst = max((finding.severity for finding in report.findings), default=None)
     least = Severity[options.severity.upper()]
     return Reply(
         lambda: audit_text(report, least),
         lambda: audit_json(report),
         {"sarif": lambda: dumps(sarif_value(report.findings, program_version()))},
+        [report.status],
         failed=bool(options.fail_on and worst is not None and worst >= Severity[options.fail_on.upper()]),
     )
 
