@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import PurePath
 from textwrap import wrap
 
@@ -15,6 +15,9 @@ LONGEST = 200
 
 _LOOKED_AT = 20
 """How many words that resemble another are looked at more closely."""
+
+_AT_ONCE = 100
+"""How many words are compared with all others at once: the table has a row for each."""
 
 
 def counted(number: int, word: str) -> str:
@@ -76,6 +79,19 @@ def alike(word: str, known: Iterable[str], count: int, least: float = 0.6) -> li
     choices = sorted(set(known))
     found = process.extract(word, choices, scorer=fuzz.ratio, limit=count, score_cutoff=100 * least)
     return [match for match, _, _ in found]
+
+
+def likest(words: Sequence[str], known: Iterable[str], least: float) -> Iterator[tuple[str, str]]:
+    """Yield each word that resembles a known one at least so much, of 1, with the likest, as `alike` does."""
+    from rapidfuzz import fuzz, process
+
+    choices = sorted(set(known))
+    for start in range(0, len(words) if choices else 0, _AT_ONCE):
+        some = words[start : start + _AT_ONCE]
+        shares = process.cdist(some, choices, scorer=fuzz.ratio, score_cutoff=100 * least, dtype=float)
+        for word, row, best in zip(some, shares, shares.argmax(axis=1), strict=True):
+            if row[best]:
+                yield word, choices[best]
 
 
 def closest(word: str, known: Iterable[str], count: int = 3) -> str:

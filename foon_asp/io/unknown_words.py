@@ -14,7 +14,7 @@ from foon_asp.io.findings import Finding, Severity
 from foon_asp.io.folder import Dataset, Sources
 from foon_asp.model.node import ObjectNode
 from foon_asp.model.world import World
-from foon_asp.words import alike, closest
+from foon_asp.words import closest, likest
 
 _NEAR = 0.75
 """How much a word must resemble a known one to be taken for it, of 1."""
@@ -35,11 +35,10 @@ class Words:
 
     def misspelt(self) -> Iterator[tuple[str, str]]:
         """Yield the words that are probably misspelt, each with what is near."""
-        for word in sorted(set(self.words).difference(self.known)):
-            near = alike(word, self.known, 1, _NEAR)
+        for word, near in likest(sorted(set(self.words).difference(self.known)), self.known, _NEAR):
             # What another FOON has beside what is near is another word: crank, beside crack.
-            if near and (self.beside or near[0] not in self.words):
-                yield word, near[0]
+            if self.beside or near not in self.words:
+                yield word, near
 
 
 def unknown(dataset: Dataset, world: World) -> Iterator[Finding]:

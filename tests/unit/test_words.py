@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from foon_asp.words import LONGEST, alike, closest, cut, did_you_mean, shortened
+from foon_asp.words import LONGEST, alike, closest, cut, did_you_mean, likest, shortened
 
 
 @pytest.mark.parametrize(
@@ -52,3 +54,9 @@ def test_what_is_long_is_cut() -> None:
 def test_did_you_mean() -> None:
     assert did_you_mean("--meth", ["--method", "--goals"]) == "; did you mean --method?"
     assert did_you_mean("--zzz", ["--method", "--goals"]) == ""
+
+
+@given(st.lists(st.text("abc ", max_size=6), max_size=30), st.sets(st.text("abc ", max_size=6), max_size=20))
+def test_many_words_have_the_likest_that_each_has(words: list[str], known: set[str]) -> None:
+    each = [(word, near[0]) for word in words if (near := alike(word, known, 1, 0.75))]
+    assert list(likest(words, known, 0.75)) == each
