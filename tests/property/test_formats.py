@@ -39,7 +39,7 @@ def test_every_time_that_a_store_may_have_survives_writing(thousandths: int) -> 
     assert parse_time(time_text(thousandths / 1000)) == thousandths / 1000
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=200)
 @given(foons())
 def test_every_foon_survives_writing(foon: Foon) -> None:
     check_writing(foon)
@@ -48,7 +48,6 @@ def test_every_foon_survives_writing(foon: Foon) -> None:
 RATES = st.one_of(st.none(), st.floats(0, 1))
 
 
-@settings(deadline=None, derandomize=True)
 @given(st.lists(RATES, min_size=1, max_size=4), st.booleans())
 def test_units_alike_but_for_their_rate_keep_the_best(rates: list[float | None], as_json: bool) -> None:
     """In text, in JSON, in a FOON that is merged; whatever differs is told."""

@@ -49,7 +49,7 @@ _PIECES = [
         b": 1e999",
     ),
 ]
-moderate = settings(max_examples=300, deadline=None, derandomize=True)
+moderate = settings(max_examples=300)
 
 
 @moderate

@@ -9,7 +9,7 @@ from typing import Any
 
 import msgspec
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foon_asp.errors import QueryError
@@ -124,7 +124,6 @@ def test_a_line_is_read_or_refused(value: object) -> None:
         assert len(query.kitchen.add) == len(value.get("add", ()))
 
 
-@settings(deadline=None)
 @given(objects(RIGHT_CONSTRAINTS))
 def test_constraints_are_all_declared(value: dict[str, Any]) -> None:
     assert [*ConstraintsJson.__struct_fields__, "rules"] == [each.name for each in fields(Constraints)]

@@ -32,7 +32,7 @@ _ROWS = st.lists(st.tuples(st.sampled_from(_PLAIN) | st.sampled_from(_ODD), _END
 _TEXTS = st.tuples(_ROWS, st.booleans()).map(
     lambda drawn: "".join(map("".join, drawn[0]))[: None if drawn[1] else -1]
 )
-moderate = settings(max_examples=150, deadline=None, derandomize=True)
+moderate = settings(max_examples=150)
 
 BUILT_IN_TEXT = BUILT_IN.read_text(encoding="utf-8")
 

@@ -12,7 +12,7 @@ from functools import cache
 from math import prod
 from typing import TypeVar
 
-from hypothesis import HealthCheck, settings
+from hypothesis import settings
 from hypothesis import strategies as st
 
 from foon_asp.model.foon import Foon, FoonBuilder
@@ -38,13 +38,8 @@ _UNIT = re.compile(r"(?P<inputs>.*)-(?P<motion>\w+)->(?P<outputs>.*)")
 
 
 def many(examples: int) -> settings:
-    """Try a property on many examples, the same ones in each run."""
-    return settings(
-        deadline=None,
-        max_examples=examples,
-        derandomize=True,
-        suppress_health_check=[HealthCheck.too_slow],
-    )
+    """Try a property on so many examples."""
+    return settings(max_examples=examples)
 
 
 def node(text: str) -> ObjectNode:

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foon_asp.errors import InputError
@@ -85,7 +85,6 @@ def test_a_row_of_rates_that_cannot_be_read(tmp_path: Path, row: str) -> None:
 @given(
     st.one_of(st.floats().map(str), st.integers().map(str), st.text(), st.just("9" * 10_000), st.just("0_1"))
 )
-@settings(deadline=None, derandomize=True)
 def test_a_rate_is_a_chance(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     if any(character in text for character in "\r\n\t"):
         return
