@@ -391,7 +391,7 @@ def test_a_progress_bar_has_rate_and_time_left(tmp_path: Path) -> None:
 def long_run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, bytes]:
     """Queries for some seconds, and the results of a run that nothing disturbs."""
     folder = tmp_path_factory.mktemp("long")
-    queries = write_queries(folder / "q.jsonl", many(120))
+    queries = write_queries(folder / "q.jsonl", many(300))
     out = folder / "o.jsonl"
     command = program("batch", "--queries", queries, "-o", out, "--jobs", 1)
     subprocess.run(command, capture_output=True, timeout=120, check=True)
@@ -409,12 +409,12 @@ def test_a_killed_run_goes_on_where_it_stopped(
         until(lambda: rows_in(journal) > 20)
         workers = workers_of(process)
         process.kill()
-        process.wait(10)
+        process.wait(60)
         assert len(workers) == 2
         until(lambda: gone(workers))
     assert not out.exists()
     done = rows_in(journal)
-    assert 20 < done < 120
+    assert 20 < done < 300
     # As if it had been killed in the middle of a write, too: what was written last has no end.
     log = tmp_path / "o.jsonl.partial-wal"
     log.write_bytes(log.read_bytes()[:-20])
@@ -471,7 +471,7 @@ def test_a_run_that_was_killed_at_the_very_end(
     out.write_bytes(expected)
     status, _, err = run(capsys, "batch", "--queries", queries, "-o", out, "--jobs", 1)
     assert status == 0
-    assert "120 done before" in err
+    assert "300 done before" in err
     assert out.read_bytes() == expected
     assert not journal.exists()
 
@@ -519,10 +519,10 @@ def test_an_interrupted_run_stops_cleanly(
         workers = workers_of(process)
         # Ctrl-C reaches every process of the group.
         os.killpg(process.pid, signal.SIGINT)
-        assert process.wait(10) == 130
+        assert process.wait(60) == 130
         assert process.stderr is not None
         assert process.stderr.read() == "foon-asp: stopped; the same command goes on from here\n"
-        assert gone(workers)
+        until(lambda: gone(workers))
     done = rows_in(journal)
     assert done > 10
     status, _, err = run(capsys, "batch", "--queries", queries, "-o", out, "--jobs", 1)
