@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo quick test schemas drill bench planning clean
+.PHONY: demo quick test schemas drill properties bench planning clean
 
 # Show the main job on the built-in data.
 demo: .venv/ready
@@ -31,6 +31,10 @@ quick: .venv/ready
 N ?= 1
 drill: .venv/ready
 	PYTHONPATH=tests $(BIN)/python -m drill --times $(N)
+
+# Try every property on N times as many examples as its test names, others in each run.
+properties: .venv/ready
+	FOON_ASP_EXAMPLES=$(N) $(BIN)/pytest -n auto tests/property
 
 # Measure, and write benchmarks/RESULTS.md; see benchmarks/README.md.
 bench: .venv/ready

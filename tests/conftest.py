@@ -5,20 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import settings
 
 from foon_asp.io.folder import Dataset, load
 from foon_asp.io.open import open_files
 from foon_asp.io.store import write_store
 from foon_asp.model.world import World
+from support import examples
 from support.paths import BUILT_IN
 from support.small_foons import world
 
-# The same examples in each run, however slow the machine is: chance belongs to the drill.
-settings.register_profile(
-    "same", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow], print_blob=True
-)
-settings.load_profile("same")
+settings.register_profile("tests", examples.profile())
+settings.load_profile("tests")
 
 
 @pytest.fixture(scope="session")

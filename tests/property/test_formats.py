@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from contextlib import suppress
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foon_asp.io.json import write_api
@@ -14,6 +14,7 @@ from foon_asp.io.text import write_text
 from foon_asp.model.foon import Foon, FoonBuilder, merge
 from foon_asp.model.node import Annotation, ObjectNode
 from support.drawn_foons import foons
+from support.examples import many
 from support.reading_checks import check_writing, read
 
 # Round trips
@@ -39,7 +40,7 @@ def test_every_time_that_a_store_may_have_survives_writing(thousandths: int) -> 
     assert parse_time(time_text(thousandths / 1000)) == thousandths / 1000
 
 
-@settings(max_examples=200)
+@many(200)
 @given(foons())
 def test_every_foon_survives_writing(foon: Foon) -> None:
     check_writing(foon)

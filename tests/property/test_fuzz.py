@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foon_asp.io.json import write_api, write_units
 from foon_asp.io.text import write_text
+from support.examples import many
 from support.foon_texts import DIALECTS
 from support.paths import ROOT
 from support.reading_checks import check, read
@@ -49,7 +50,7 @@ _PIECES = [
         b": 1e999",
     ),
 ]
-moderate = settings(max_examples=300)
+moderate = many(300)
 
 
 @moderate

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from foon_asp import limits
@@ -13,6 +13,7 @@ from foon_asp.io import lines, text
 from foon_asp.io.text import TextReader
 from foon_asp.model import numbering
 from foon_asp.model.foon import FoonBuilder, merge
+from support.examples import many
 from support.foon_texts import DIALECTS, EXAMPLES
 from support.paths import BUILT_IN
 from support.plain_reader import PlainReader
@@ -32,7 +33,7 @@ _ROWS = st.lists(st.tuples(st.sampled_from(_PLAIN) | st.sampled_from(_ODD), _END
 _TEXTS = st.tuples(_ROWS, st.booleans()).map(
     lambda drawn: "".join(map("".join, drawn[0]))[: None if drawn[1] else -1]
 )
-moderate = settings(max_examples=150)
+moderate = many(150)
 
 BUILT_IN_TEXT = BUILT_IN.read_text(encoding="utf-8")
 

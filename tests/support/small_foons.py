@@ -12,7 +12,6 @@ from functools import cache
 from math import prod
 from typing import TypeVar
 
-from hypothesis import settings
 from hypothesis import strategies as st
 
 from foon_asp.model.foon import Foon, FoonBuilder
@@ -28,6 +27,7 @@ from foon_asp.model.node import (
 )
 from foon_asp.model.world import World
 from support import brute_force
+from support.examples import many as many
 
 T = TypeVar("T")
 
@@ -35,11 +35,6 @@ _OBJECT = re.compile(
     r"(?P<label>[\w ]+)(?:\[(?P<states>[^]]*)\])?(?:\{(?P<contents>[^}]*)\})?(?:@(?P<container>\w+))?"
 )
 _UNIT = re.compile(r"(?P<inputs>.*)-(?P<motion>\w+)->(?P<outputs>.*)")
-
-
-def many(examples: int) -> settings:
-    """Try a property on so many examples."""
-    return settings(max_examples=examples)
 
 
 def node(text: str) -> ObjectNode:

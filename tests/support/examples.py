@@ -1,0 +1,30 @@
+"""How many examples a property is tried on: few, the same in each run; by `make properties` many, by chance."""
+
+from __future__ import annotations
+
+import os
+
+from hypothesis import HealthCheck, settings
+
+_ASKED = os.environ.get("FOON_ASP_EXAMPLES")
+"""How many times as many examples as a test names; None: half as many, the same ones in each run."""
+
+
+def many(examples: int) -> settings:
+    """Try a property on so many examples, if nothing else is asked for half as many."""
+    return settings(max_examples=_number(examples))
+
+
+def profile() -> settings:
+    """Return the settings of all properties: however slow the machine is, they are tried."""
+    return settings(
+        deadline=None,
+        derandomize=_ASKED is None,
+        max_examples=_number(100),
+        print_blob=True,
+        suppress_health_check=[HealthCheck.too_slow],
+    )
+
+
+def _number(examples: int) -> int:
+    return max(1, round(examples * float(_ASKED or 0.5)))
