@@ -1,4 +1,4 @@
-"""How many examples a property is tried on: few, the same in each run; by `make properties` many, by chance."""
+"""How many examples a property is tried on: few and the same in each run, or many by `make properties`."""
 
 from __future__ import annotations
 
