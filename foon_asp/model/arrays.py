@@ -6,7 +6,7 @@ To Python they are sequences and mappings of plain integers; `values` and `offse
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any, Generic, TypeVar, cast, overload
 
@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 K = TypeVar("K", bound=int)
 V = TypeVar("V", bound=int)
+T = TypeVar("T")
 
 Numbers = npt.NDArray[np.int32]
 Places = npt.NDArray[np.int64]
@@ -162,6 +163,27 @@ class Rows(Sequence[tuple[V, ...]], Generic[K, V]):
             return self
         kept = np.concatenate(([0], np.cumsum(keep)))
         return Rows(kept[self.offsets], self.values[keep])
+
+
+_KEPT = 1 << 17
+"""How many values are kept once they were made."""
+
+
+class Kept(dict[K, T]):
+    """What a function makes of numbers, each made once, for where the same ones are looked up all the time.
+
+    A dictionary hands out what it has several times as fast as it is made, be it only a row of `Rows`.
+    """
+
+    def __init__(self, make: Callable[[K], T]) -> None:
+        super().__init__()
+        self._make = make
+
+    def __missing__(self, number: K) -> T:
+        if len(self) >= _KEPT:
+            self.clear()
+        value = self[number] = self._make(number)
+        return value
 
 
 class Index(Mapping[K, tuple[V, ...]]):

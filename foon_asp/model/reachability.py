@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Container, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
 
-from foon_asp.model.arrays import Numbers, Rounds, Rows, counts, distinct
+from foon_asp.model.arrays import Mask, Numbers, Rounds, Rows, counts, distinct, numbers
 from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.model.units import Units
 
@@ -40,8 +41,9 @@ def within(units: Units, kitchen: Container[ObjectId], some: Iterable[UnitId]) -
     available: dict[ObjectId, int] = {}
     executable: dict[UnitId, int] = {}
     missing: dict[UnitId, int] = {}
+    needed, makes = units.needed, units.made
     for unit in some:
-        needs = units.needs[unit]
+        needs = needed[unit]
         available.update((object_id, 0) for object_id in needs if object_id in kitchen)
         lacking = [object_id for object_id in needs if object_id not in available]
         missing[unit] = len(lacking)
@@ -52,7 +54,7 @@ def within(units: Units, kitchen: Container[ObjectId], some: Iterable[UnitId]) -
     while ready:
         depth += 1
         executable.update((unit, depth) for unit in ready)
-        made = dict.fromkeys(object_id for unit in ready for object_id in units.makes[unit])
+        made = dict.fromkeys(object_id for unit in ready for object_id in makes[unit])
         fresh = [object_id for object_id in made if object_id not in available and object_id not in kitchen]
         available.update((object_id, depth) for object_id in fresh)
         ready = []
@@ -72,21 +74,75 @@ def backward(
     """Return, sorted, the units that can matter for the goals, among all or the given ones.
 
     A unit matters if it makes a goal, or something that a unit which matters needs and the
-    kitchen does not have.
+    kitchen does not have. What is found from so many objects at once that it pays is found on whole arrays.
     """
-    found: set[UnitId] = set()
-    open_ = [goal for goal in goals if goal not in kitchen]
-    wanted = set(open_)
-    while open_:
-        for unit in units.makers.of(open_.pop()):
-            if unit in found or (among is not None and unit not in among):
-                continue
-            found.add(unit)
-            for object_id in units.needs[unit]:
-                if object_id not in wanted and object_id not in kitchen:
-                    wanted.add(object_id)
-                    open_.append(object_id)
-    return sorted(found)
+    search = _Backward(units, kitchen, among)
+    fresh: Any = list(dict.fromkeys(goal for goal in goals if goal not in kitchen))
+    while len(fresh):
+        fresh = (search.wide if len(fresh) >= _WIDE else search.narrow)(fresh)
+    return search.units()
+
+
+class _Backward:
+    """A search from what is wanted to what leads there, each step on whole arrays or on single numbers."""
+
+    def __init__(self, units: Units, kitchen: Collection[ObjectId], among: Collection[UnitId] | None) -> None:
+        self._units, self._kitchen, self._among = units, kitchen, among
+        self._found = np.zeros(len(units.needs), dtype=np.bool_)
+        self._wanted = np.zeros(len(units.foon.objects), dtype=np.bool_)
+        self._few: list[UnitId] | None = []
+
+    def units(self) -> list[UnitId]:
+        """Return all that was found, sorted."""
+        if self._few is not None:
+            return sorted(self._few)
+        return cast(list[UnitId], np.flatnonzero(self._found).tolist())
+
+    @cached_property
+    def _closed(self) -> Mask:
+        """Say of each object whether nothing need make it."""
+        closed = np.zeros(len(self._wanted), dtype=np.bool_)
+        there = numbers(self._kitchen)
+        closed[there[there < len(closed)]] = True
+        return closed
+
+    @cached_property
+    def _open(self) -> Mask:
+        """Say of each unit whether it may be found."""
+        if isinstance(self._among, Rounds):
+            return self._among.rounds >= 0
+        open_ = np.full(len(self._found), self._among is None, dtype=np.bool_)
+        open_[numbers(self._among or ())] = True
+        return open_
+
+    def wide(self, fresh: Any) -> Any:
+        """Return what is wanted anew by the makers of what was wanted anew."""
+        makers = self._units.makers.rows.gather(np.asarray(fresh, dtype=np.int64))
+        units = distinct(makers[self._open[makers] & ~self._found[makers]])
+        self._found[units] = True
+        self._few = None
+        needs = self._units.needs.gather(units)
+        new = distinct(needs[~(self._wanted[needs] | self._closed[needs])])
+        self._wanted[new] = True
+        return new
+
+    def narrow(self, fresh: Any) -> Any:
+        """Do the same one by one."""
+        making, needed, kitchen, among = self._units.making, self._units.needed, self._kitchen, self._among
+        found, wanted = (memoryview(cast(Any, each)) for each in (self._found, self._wanted))
+        few = [] if self._few is None else self._few
+        new: list[ObjectId] = []
+        for object_id in fresh:
+            for unit in making[object_id]:
+                if found[unit] or (among is not None and unit not in among):
+                    continue
+                found[unit] = True
+                few.append(unit)
+                for need in needed[unit]:
+                    if not wanted[need] and need not in kitchen:
+                        wanted[need] = True
+                        new.append(need)
+        return new
 
 
 _WIDE = 64

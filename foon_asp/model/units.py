@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from foon_asp.model.arrays import Index, Mask, Numbers, Places, Rows, distinct, numbers, places
+from foon_asp.model.arrays import Index, Kept, Mask, Numbers, Places, Rows, distinct, numbers, places
 from foon_asp.model.foon import Foon
 from foon_asp.model.node import ObjectId, ObjectNode, UnitId
 from foon_asp.model.relations import Matching, StandIns
@@ -21,7 +21,8 @@ class Units:
     """What each unit needs and makes, given which labels are utensils.
 
     `takes[U]` and `gives[U]`: inputs and outputs, as `match_relations` reads them. `needs[U]`: what it takes,
-    but for implied views; `makes[U]`: what it gives, but for bare objects.
+    but for implied views; `makes[U]`: what it gives, but for bare objects. `needed[U]` and `made[U]` are the
+    same, for searches that come by again and again.
     With `strict` every input is needed. With `labels_only` every output is made: where nodes are labels
     alone, all are bare, and that does not tell a tool from an object that is made.
     """
@@ -47,6 +48,8 @@ class Units:
         stateful = foon.objects.states.lengths > 0
         self.needs = takes if strict else takes.where(~_implied(takes, foon.objects, utensils, self.loose))
         self.makes = gives if labels_only else gives.where(stateful[gives.values])
+        self.needed: Kept[UnitId, tuple[ObjectId, ...]] = Kept(self.needs.__getitem__)
+        self.made: Kept[UnitId, tuple[ObjectId, ...]] = Kept(self.makes.__getitem__)
 
     @property
     def loose(self) -> bool:
@@ -67,6 +70,11 @@ class Units:
     def makers(self) -> Index[ObjectId, UnitId]:
         """The units that make an object, in file order."""
         return Index(self.makes, len(self.foon.objects))
+
+    @cached_property
+    def making(self) -> Kept[ObjectId, tuple[UnitId, ...]]:
+        """The same for searches, of any object: none where there are none."""
+        return Kept(self.makers.of)
 
     @cached_property
     def users(self) -> Index[ObjectId, UnitId]:

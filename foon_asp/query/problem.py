@@ -65,7 +65,8 @@ class Problem:
         allowed = world.closure.executable if self.founded else None
         required = [unit for unit in self.constraints.use_units if allowed is None or unit in allowed]
         wanted = [*self.goals, *(need for unit in required for need in world.units.needs[unit])]
-        return sorted({*required, *backward(world.units, wanted, world.stock, allowed)})
+        units = backward(world.units, wanted, world.stock, allowed)
+        return sorted({*required, *units}) if required else units
 
     @cached_property
     def objects(self) -> list[ObjectId]:
