@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from msgspec import to_builtins
 
 from foon_asp.io.objects import object_from_json
+from foon_asp.io.wire import JsonObject
 from foon_asp.query.objective import Costs
 from foon_asp.retrieval.answer import Answer
-from foon_asp.retrieval.wire import error_row_json, row_json
+from foon_asp.retrieval.wire import error_row_json, row_json, unit_texts
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -39,27 +40,41 @@ class Row:
         return Row, (self.line, self.id, self.status, self.json)
 
 
+_LINES = json.JSONEncoder(ensure_ascii=False)
+
+_NO_UNITS = '"units": []'
+"""Where the units of a tree are put, which are written already."""
+
 Rows = list[Row]
 """The answers to some queries, in their order."""
 
 
 def answer_row(line: int, name: Id, answer: Answer, *, timings: bool = False) -> Row:
     """Return the row of a query that was answered, with the seconds it took if there are to be timings."""
-    value = to_builtins(row_json(line, name, answer, timings=timings))
-    return Row(line, name, str(answer.status), _json_line(value))
+    row = row_json(line, name, answer, timings=timings, units=[])
+    units = [] if answer.tree is None else unit_texts(answer.tree)
+    # No text has this in it: there, quotes have backslashes.
+    text = _LINES.encode(to_builtins(row)).replace(_NO_UNITS, f'"units": [{", ".join(units)}]', 1)
+    try:
+        written = text.encode("utf-8")
+    except UnicodeEncodeError:
+        written = _in_ascii(row_json(line, name, answer, timings=timings))
+    return Row(line, name, str(answer.status), written)
 
 
 def error_row(line: int, name: Id, error: str) -> Row:
     """Return the row of a query that was not answered; `error` is one sentence of what is wrong."""
-    return Row(line, name, "error", _json_line(to_builtins(error_row_json(line, name, error))))
-
-
-def _json_line(value: dict[str, Any]) -> bytes:
+    row = error_row_json(line, name, error)
     try:
-        return json.dumps(value, ensure_ascii=False).encode("utf-8")
+        written = _LINES.encode(to_builtins(row)).encode("utf-8")
     except UnicodeEncodeError:
-        # Half of a surrogate pair, which JSON can escape but UTF-8 cannot write.
-        return json.dumps(value).encode("ascii")
+        written = _in_ascii(row)
+    return Row(line, name, "error", written)
+
+
+def _in_ascii(row: JsonObject) -> bytes:
+    """Write a row with half of a surrogate pair in it, which JSON can escape but UTF-8 cannot write."""
+    return json.dumps(to_builtins(row)).encode("ascii")
 
 
 @cache

@@ -6,7 +6,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from functools import cached_property
+from functools import cached_property, partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,12 +18,19 @@ from foon_asp.model.relations import Matching, StandIns
 from foon_asp.model.tables import ObjectTable
 
 
+class Vessels(NamedTuple):
+    """The utensils that are handled where an object is listed, and those that hold something there."""
+
+    handled: frozenset[str]
+    filled: frozenset[str]
+
+
 class Units:
     """What each unit needs and makes, given which labels are utensils.
 
     `takes[U]` and `gives[U]`: inputs and outputs, as `match_relations` reads them. `needs[U]`: what it takes,
     but for implied views; `makes[U]`: what it gives, but for bare objects. `needed[U]` and `made[U]` are the
-    same, for searches that come by again and again.
+    same, for searches that come by again and again; `vessels[O]` are the utensils in an object.
     With `strict` every input is needed. With `labels_only` every output is made: where nodes are labels
     alone, all are bare, and that does not tell a tool from an object that is made.
     """
@@ -50,6 +58,13 @@ class Units:
         self.makes = gives if labels_only else gives.where(stateful[gives.values])
         self.needed: Kept[UnitId, tuple[ObjectId, ...]] = Kept(self.needs.__getitem__)
         self.made: Kept[UnitId, tuple[ObjectId, ...]] = Kept(self.makes.__getitem__)
+        # Not a method: what refers to itself stays in memory until Python looks for cycles.
+        self.vessels: Kept[ObjectId, Vessels] = Kept(partial(_vessels, foon.objects, frozenset(utensils)))
+
+    @cached_property
+    def written(self) -> dict[tuple[UnitId, bool], str]:
+        """What was written of units; `foon_asp.retrieval.wire` keeps it."""
+        return {}
 
     @property
     def loose(self) -> bool:
@@ -80,6 +95,12 @@ class Units:
     def users(self) -> Index[ObjectId, UnitId]:
         """The units that need an object, in file order."""
         return Index(self.needs, len(self.foon.objects))
+
+
+def _vessels(objects: ObjectTable, utensils: frozenset[str], number: ObjectId) -> Vessels:
+    node = objects[number]
+    holding = {node.label, *node.containers} if node.contents else set(node.containers)
+    return Vessels(utensils.intersection(node.handled_labels), utensils & holding)
 
 
 _Labels = Rows[ObjectId, int]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
@@ -20,7 +20,7 @@ from foon_asp.model.node import FunctionalUnit, ObjectId, ObjectNode, UnitId
 from foon_asp.model.reachability import Closure, forward
 from foon_asp.model.relations import Matching
 from foon_asp.model.similarity import Uses
-from foon_asp.model.units import Units
+from foon_asp.model.units import Units, Vessels
 from foon_asp.numbers import QUANTITY
 from foon_asp.values import said
 from foon_asp.words import closest
@@ -245,24 +245,21 @@ class World:
 
     def handled(self, *units: FunctionalUnit) -> Set[str]:
         """Return the utensils that some units handle: what they list, and what that is in or on."""
-        nodes = self._listed(units)
-        related = {state.relatum for node in nodes for state in node.states if state.relatum is not None}
-        return self.kitchen.utensils & ({node.label for node in nodes} | related)
+        return frozenset().union(*(vessels.handled for vessels in self._vessels(units)))
 
     def filled(self, *units: FunctionalUnit) -> Set[str]:
         """Return the utensils that hold something in some units, before or after their motions."""
-        nodes = self._listed(units)
-        vessels = {vessel for node in nodes for vessel in node.containers}
-        return self.kitchen.utensils & ({node.label for node in nodes if node.contents} | vessels)
+        return frozenset().union(*(vessels.filled for vessels in self._vessels(units)))
 
     def cost_of(self, units: Iterable[FunctionalUnit]) -> float | None:
         """Return what the motions of some units cost together; None if nothing says it of one of them."""
+        if not self.kitchen.costs and self.kitchen.default_cost is None:
+            return None
         costs = [self.kitchen.known_cost(unit) for unit in units]
         known = [cost for cost in costs if cost is not None]
-        stated = bool(self.kitchen.costs) or self.kitchen.default_cost is not None
-        return float(sum(known)) if stated and len(known) == len(costs) else None
+        return float(sum(known)) if len(known) == len(costs) else None
 
-    def _listed(self, units: Iterable[FunctionalUnit]) -> list[ObjectNode]:
-        """Return the objects that some units list, each once."""
-        numbers = {number for unit in units for number in (*unit.inputs, *unit.outputs)}
-        return [self.node(number) for number in numbers]
+    def _vessels(self, units: Iterable[FunctionalUnit]) -> Iterator[Vessels]:
+        """Yield the utensils in each object that some units list."""
+        vessels = self.units.vessels
+        return (vessels[number] for unit in units for number in (*unit.inputs, *unit.outputs))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from msgspec import UNSET, Meta, UnsetType, structs
+from msgspec import UNSET, Meta, UnsetType, structs, to_builtins
 
 from foon_asp.io.object_wire import ObjectJson, UnitJson, object_to_json
 from foon_asp.io.wire import (
@@ -254,9 +255,19 @@ class RetrievalJson(JsonObject):
     ] = UNSET
 
 
-def retrieval_json(result: Answer, trace: list[BoundJson] | UnsetType = UNSET) -> RetrievalJson:
-    """Return what `retrieve --format json` writes for one goal; `trace` is what `--trace` adds."""
+def retrieval_json(
+    result: Answer,
+    trace: list[BoundJson] | UnsetType = UNSET,
+    *,
+    units: list[TreeUnitJson] | None = None,
+) -> RetrievalJson:
+    """Return what `retrieve --format json` writes for one goal; `trace` is what `--trace` adds.
+
+    `units` are written instead of those of the tree.
+    """
     tree = result.tree
+    if units is None:
+        units = [] if tree is None else _tree_units(tree)
     costs = some_costs_json(tree)
     return RetrievalJson(
         goal=object_to_json(result.goal),
@@ -270,7 +281,7 @@ def retrieval_json(result: Answer, trace: list[BoundJson] | UnsetType = UNSET) -
         size=None if costs is None else costs.units,
         depth=None if costs is None else costs.depth,
         costs=costs,
-        units=[] if tree is None else _tree_units(tree),
+        units=units,
         bound=result.bound or None,
         own={str(priority): paid for priority, paid in result.own.items()},
         seconds=round(result.seconds, 6),
@@ -304,6 +315,35 @@ def _tree_units(tree: TaskTree) -> list[TreeUnitJson]:
         structs.replace(TreeUnitJson.of(tree.world.foon, unit, agent=_agent(tree, unit)), id=number)
         for unit, number in rows
     ]
+
+
+_WRITTEN = 1 << 14
+"""How many units are kept as they were written; each takes about a kilobyte."""
+
+
+def unit_texts(tree: TaskTree) -> list[str]:
+    """Return the units of a tree as JSON in one line each, as `json.dumps` writes it.
+
+    The units of a FOON are written once, and those of its trees are among them.
+    """
+    if tree.record is not None:
+        return [_unit_text(unit) for unit in _tree_units(tree)]
+    foon, written = tree.world.foon, tree.world.units.written
+    texts = []
+    for number in tree.units:
+        key = number, number in tree.human
+        text = written.get(key)
+        if text is None:
+            if len(written) >= _WRITTEN:
+                written.clear()
+            unit = foon.units[number]
+            text = written[key] = _unit_text(TreeUnitJson.of(foon, unit, agent=_agent(tree, unit)))
+        texts.append(text)
+    return texts
+
+
+def _unit_text(unit: TreeUnitJson) -> str:
+    return json.dumps(to_builtins(unit), ensure_ascii=False)
 
 
 def _agent(tree: TaskTree, unit: FunctionalUnit) -> Literal["robot", "human"]:
@@ -724,9 +764,19 @@ class AnswerRowJson(JsonObject, kw_only=True):
     replacements: Replacements = UNSET
 
 
-def row_json(line: int, name: str | float | None, result: Answer, *, timings: bool) -> AnswerRowJson:
-    """Return the row of a batch for a query that was answered; `name` is the id that the query gave."""
-    answer: dict[str, Any] = structs.asdict(retrieval_json(result))
+def row_json(
+    line: int,
+    name: str | float | None,
+    result: Answer,
+    *,
+    timings: bool,
+    units: list[TreeUnitJson] | None = None,
+) -> AnswerRowJson:
+    """Return the row of a batch for a query that was answered; `name` is the id that the query gave.
+
+    `units` are written instead of those of the tree.
+    """
+    answer: dict[str, Any] = structs.asdict(retrieval_json(result, units=units))
     del answer["trace"]
     if len(result.goals) > 1:
         answer["goals"] = objects_json(result.goals)
