@@ -1,17 +1,13 @@
 """Which units can matter at all: what is in every task tree, and who can be the first to make something.
 
-Some units of a FOON are an and/or graph: a unit takes all its needs, an object one of its makers. An object
-or a unit is a landmark of another one if that is never had without it. Landmarks are the greatest fixpoint of
-"its own, with what all its makers have in common, or with what any of its needs has" (Zhu and Givan, Landmark
-extraction via planning graph propagation, 2003; Keyder, Richter, Helmert, Sound and complete landmarks for
-and/or graphs, 2010). Sets are bit masks here; a few passes in the order of the rounds settle them.
+Some units of a FOON are an and/or graph: a unit takes all its needs, an object one of its makers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 
-from foon_asp import limits
+from foon_asp.model.landmarks import Landmarks, Ways
 from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.model.units import Units
 
@@ -38,13 +34,21 @@ class AndOrGraph:
     ) -> None:
         self._goals = [goal for goal in goals if goal not in stock]
         self._demanded = demanded
+        self._rounds = rounds
         order = sorted(units, key=lambda unit: rounds.get(unit, 0))
-        self.needs = {unit: [o for o in reading.needs[unit] if o not in stock] for unit in order}
-        self.makes = {unit: {o for o in reading.makes[unit] if o not in stock} for unit in order}
-        self.makers: dict[ObjectId, set[UnitId]] = {}
-        self._objects: dict[ObjectId, int] = {}
-        self._units: dict[UnitId, int] = {}
+        self.needs = {unit: [o for o in reading.needed[unit] if o not in stock] for unit in order}
+        self.makes = {unit: {o for o in reading.made[unit] if o not in stock} for unit in order}
         self._settle()
+
+    @classmethod
+    def known(cls, ways: Ways, goals: Iterable[ObjectId], rounds: Mapping[UnitId, int]) -> AndOrGraph:
+        """Return what all units are at first that lead to some goals, which the kitchen can make."""
+        graph = cls.__new__(cls)
+        graph._goals, graph._demanded, graph._rounds = list(goals), (), rounds
+        known = ways.to(graph._goals)
+        graph._lead(known.needs, known.makes, known.makers)
+        graph._take(known.landmarks)
+        return graph
 
     @property
     def units(self) -> list[UnitId]:
@@ -54,8 +58,7 @@ class AndOrGraph:
     @property
     def forced(self) -> set[UnitId]:
         """The units that every tree has."""
-        common = self._common()
-        return {unit for unit in self.needs if self._unit_bits[unit] & common}
+        return self._forced
 
     def leave_made(self) -> bool:
         """Take each object that a forced unit makes from that unit alone, if nothing that it needs takes it.
@@ -64,7 +67,7 @@ class AndOrGraph:
         it, and is done without it, so the object is there anyway. It may be there later, though. Say whether
         there was anything to leave out.
         """
-        forced = self.forced
+        forced = self._forced
         fewer = False
         for object_id, makers in self.makers.items():
             if len(makers) > 1:
@@ -87,17 +90,18 @@ class AndOrGraph:
         delete-free tasks and its use as a heuristic for cost-optimal planning, 2015). Say whether any went.
         """
         fewer = False
+        bits, units = self._landmarks.object_bits, self._landmarks.units
         for unit in sorted(self.needs, reverse=True):
             makes = self.makes[unit]
             if unit in self._demanded or not makes:
                 continue
-            before = self._units[unit]
+            before = units[unit]
             rarest = min(makes, key=lambda object_id: (len(self.makers[object_id]), object_id))
             for other in self.makers[rarest]:
                 if (
                     other != unit
                     and makes <= self.makes[other]
-                    and all(self._object_bits[need] & before for need in self.needs[other])
+                    and all(bits[need] & before for need in self.needs[other])
                     and no_dearer(other, unit)
                 ):
                     for object_id in list(makes):
@@ -111,19 +115,21 @@ class AndOrGraph:
     def _settle(self) -> None:
         """Leave out what does not matter until nothing more goes."""
         while True:
-            self._lead()
-            self._find_landmarks()
-            for unit in self.needs.keys() - self._units.keys():
+            able: dict[ObjectId, list[UnitId]] = {}
+            for unit, made in self.makes.items():
+                for object_id in made:
+                    able.setdefault(object_id, []).append(unit)
+            self._lead(self.needs, self.makes, able)
+            landmarks = Landmarks()
+            landmarks.number(self.makers, self.needs)
+            landmarks.find(self.needs, self.makes)
+            for unit in self.needs.keys() - landmarks.units.keys():
                 self.makes[unit].clear()
-            late = [
-                (unit, object_id)
-                for unit, mask in self._units.items()
-                for object_id in self.makes[unit]
-                if self._object_bits[object_id] & mask
-            ]
+            late = landmarks.late(self.makes)
             for unit, object_id in late:
                 self._drop(unit, object_id)
-            if not late and len(self._units) == len(self.needs):
+            if not late and len(landmarks.units) == len(self.needs):
+                self._take(landmarks)
                 return
 
     def _drop(self, unit: UnitId, object_id: ObjectId) -> None:
@@ -131,61 +137,39 @@ class AndOrGraph:
         self.makes[unit].discard(object_id)
         self.makers[object_id].discard(unit)
 
-    def _lead(self) -> None:
-        """Leave out the units that do not lead to a goal, and of what they make what nobody needs."""
-        able: dict[ObjectId, list[UnitId]] = {}
-        for unit, made in self.makes.items():
-            for object_id in made:
-                able.setdefault(object_id, []).append(unit)
+    def _lead(
+        self,
+        needs: Mapping[UnitId, list[ObjectId]],
+        makes: Mapping[UnitId, set[ObjectId]],
+        able: Mapping[ObjectId, Iterable[UnitId]],
+    ) -> None:
+        """Take only the units that lead to a goal, and of what they make what somebody needs."""
         found = set(self._demanded)
-        open_ = [*self._goals, *(need for unit in found for need in self.needs[unit])]
+        open_ = [*self._goals, *(need for unit in found for need in needs[unit])]
         wanted = set(open_)
         while open_:
             for unit in able.get(open_.pop(), ()):
                 if unit not in found:
                     found.add(unit)
-                    fresh = [need for need in self.needs[unit] if need not in wanted]
+                    fresh = [need for need in needs[unit] if need not in wanted]
                     wanted.update(fresh)
                     open_ += fresh
-        self.needs = {unit: needs for unit, needs in self.needs.items() if unit in found}
-        self.makes = {unit: self.makes[unit] & wanted for unit in self.needs}
-        self.makers = {object_id: found.intersection(able.get(object_id, ())) for object_id in wanted}
+        order = sorted(found, key=lambda unit: self._rounds.get(unit, 0))
+        self.needs = {unit: needs[unit] for unit in order}
+        self.makes = {unit: makes[unit] & wanted for unit in order}
+        self.makers: dict[ObjectId, set[UnitId]] = {
+            object_id: found.intersection(able.get(object_id, ())) for object_id in wanted
+        }
 
-    def _find_landmarks(self) -> None:
-        """Work out the landmarks of each object and unit; what cannot be had is left out."""
-        self._object_bits = {object_id: 1 << place for place, object_id in enumerate(self.makers)}
-        self._unit_bits = {unit: 1 << place for place, unit in enumerate(self.needs, len(self.makers))}
-        objects: dict[ObjectId, int] = {}
-        units: dict[UnitId, int] = {}
-        changed = True
-        while changed:
-            limits.check()
-            changed = False
-            for unit, needs in self.needs.items():
-                mask = self._unit_bits[unit]
-                for object_id in needs:
-                    known = objects.get(object_id)
-                    if known is None:
-                        break
-                    mask |= known
-                else:
-                    if units.get(unit) != mask:
-                        units[unit] = mask
-                        changed = True
-                        for object_id in self.makes[unit]:
-                            objects[object_id] = (
-                                objects.get(object_id, -1) & mask | self._object_bits[object_id]
-                            )
-        self._objects, self._units = objects, units
-
-    def _common(self) -> int:
-        """Return the landmarks of all that must be made or done."""
+    def _take(self, landmarks: Landmarks) -> None:
+        """Take the landmarks of what is left, and note which units are those of all that must be there."""
         common = 0
         for goal in self._goals:
-            common |= self._objects.get(goal, 0)
+            common |= landmarks.objects.get(goal, 0)
         for unit in self._demanded:
-            common |= self._units.get(unit, 0)
-        return common
+            common |= landmarks.units.get(unit, 0)
+        self._landmarks = landmarks
+        self._forced = {unit for unit in self.needs if landmarks.unit_bits[unit] & common}
 
     def _after(self, object_id: ObjectId) -> set[UnitId]:
         """Return the units that may be done with the help of an object, directly or not."""

@@ -15,6 +15,7 @@ from foon_asp.errors import QueryError
 from foon_asp.model.arrays import Mask
 from foon_asp.model.foon import Foon, FoonBuilder
 from foon_asp.model.kitchen import Kitchen, seen_as
+from foon_asp.model.landmarks import Ways
 from foon_asp.model.levels import FULL, check_level, lasting, planning_view, project
 from foon_asp.model.node import FunctionalUnit, ObjectId, ObjectNode, UnitId
 from foon_asp.model.reachability import Closure, forward
@@ -204,6 +205,11 @@ class World:
     def closure(self) -> Closure:
         """All that the kitchen can make, and all units that it can execute."""
         return forward(self.units, self.stock)
+
+    @cached_property
+    def ways(self) -> Ways:
+        """The ways to make what can be made, as far as they were asked for."""
+        return Ways(self.units, self.stock, self.closure.executable)
 
     @cached_property
     def uses(self) -> Uses:

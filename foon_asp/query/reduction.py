@@ -132,6 +132,9 @@ def narrowed(problem: Problem, objective: Objective) -> Problem:
 def _graph(problem: Problem) -> AndOrGraph:
     world, demanded = problem.world, problem.constraints.use_units
     rounds = world.closure.executable
+    if problem.among is None and not demanded:
+        goals = [goal for goal in problem.goals if goal not in world.stock]
+        return AndOrGraph.known(world.ways, goals, rounds)
     return AndOrGraph(world.units, world.stock, problem.units, problem.goals, demanded, rounds)
 
 
