@@ -23,6 +23,7 @@ from foon_asp.io.open import FoonReader
 from foon_asp.io.transitions import Orders, read_orders, stated_orders
 from foon_asp.io.trees import TreeBuilder, TreeFile, trees_beside
 from foon_asp.io.unknown_words import unknown
+from foon_asp.io.vocabulary import VocabularyName
 from foon_asp.model.alignment import Likeness, Measure
 from foon_asp.model.foon import Foon, FoonBuilder
 from foon_asp.model.kitchen import Kitchen
@@ -293,7 +294,8 @@ def load(folder: str | Path | None = None, **files: Unpack[SourceKeys]) -> World
 
     A folder has `FOON.txt` (or subgraphs `*.txt`), and may have `kitchen.json`, `motion.txt` (success rates),
     `motion_cost.json`, `utensils.txt` and `goal_nodes.json`; `foon=[…]`, `kitchen=…`, `rates=…`, `costs=…`,
-    `utensils=…`, `goals=…` name other files. `strict=True` needs every input, `level=2` shows less detail.
+    `utensils=…`, `goals=…` name other files. `strict=True` needs every input, `level=2` shows less detail;
+    with `vocabulary="as-written"` words of older FOON text, like `ingredients inside`, stay as they are.
     Raises `InputError`, and warns (`FoonWarning`) if something in a FOON file is lost; `World.findings` has
     all that is odd.
     """
@@ -315,22 +317,32 @@ Unit = tuple[Iterable[Named], str, Iterable[Named]] | Step
 """A functional unit as values: its inputs, its motion, its outputs; a step of a task tree is one, too."""
 
 
-def read(units: str | Iterable[Unit]) -> Foon:
+def read(units: str | Iterable[Unit], *, vocabulary: VocabularyName = "current") -> Foon:
     """Return a FOON of values, without a file: of FOON text or JSON, or of units.
 
-    A unit is `(inputs, motion, outputs)`; objects are object nodes or texts as in goals. Raises `InputError`
-    for a text that is no FOON, `QueryError` for an object that cannot be read; warns (`FoonWarning`) if
-    something in a text is lost.
+    A unit is `(inputs, motion, outputs)`, with one input at least; objects are object nodes or texts as in
+    goals. With the vocabulary "as-written" words of older FOON text stay as they are. Raises `InputError` for
+    a text that is no FOON, `QueryError` for what cannot be read; warns (`FoonWarning`) if something in a text
+    is lost.
     """
     if isinstance(units, str):
-        reader = FoonReader()
+        reader = FoonReader(words=vocabulary)
         reader.read_data(_encoded(units), Path("<text>"))
         files = reader.finish()
         _warn_of_losses(files.findings)
         return files.foon
     builder = FoonBuilder()
     _add_units(builder, units)
-    return builder.build()
+    foon = builder.build()
+    _refuse_from_nothing(foon)
+    return foon
+
+
+def _refuse_from_nothing(foon: Foon) -> None:
+    """Raise `QueryError` if a unit has no input, as units of files have that are left out."""
+    for unit in foon.units:
+        if not unit.inputs:
+            raise QueryError(f"nothing is made from nothing: a unit of {said(unit.motion)} has no input")
 
 
 def _add_units(builder: FoonBuilder, units: Iterable[Unit]) -> None:
@@ -353,6 +365,7 @@ class CheckKeys(TypedDict, total=False):
     match_relations: Matching
     strict: bool
     mend: bool
+    vocabulary: VocabularyName
     time_limit: float | None
     memory_limit: float | None
 
@@ -385,7 +398,9 @@ def check(*trees: Tree, known: World | None = None, **asked: Unpack[CheckKeys]) 
         asked.get("time_limit"),
         asked.get("memory_limit"),
     )
-    files = [_tree_file(tree, f"tree {place}") for place, tree in enumerate(trees, 1)]
+    files = _tree_files(trees, asked.get("vocabulary", "current"))
+    for file in files:
+        _refuse_from_nothing(file.foon)
     _warn_of_losses([finding for file in files for finding in file.findings])
     return check_trees(trees_beside(world.foon, files), query)
 
@@ -408,6 +423,7 @@ class ConsolidateKeys(TypedDict, total=False):
     constraints: Constraints | None
     strict: bool
     match_relations: Matching
+    vocabulary: VocabularyName
     time_limit: float | None
     memory_limit: float | None
 
@@ -445,7 +461,7 @@ def consolidate(*trees: Tree, **asked: Unpack[ConsolidateKeys]) -> Consolidation
         asked.get("strict", False),
         asked.get("match_relations", "loose"),
     )
-    files = [_tree_file(tree, f"tree {place}") for place, tree in enumerate(trees, 1)]
+    files = _tree_files(trees, asked.get("vocabulary", "current"))
     _warn_of_losses([finding for file in files for finding in file.findings])
     return consolidate_trees(trees_beside(FoonBuilder().build(), files), query)
 
@@ -470,8 +486,12 @@ def _orders(given: str | Path | Iterable[Iterable[str]], name: str) -> Orders:
     return read_orders(Path(given)) if isinstance(given, str | Path) else stated_orders(given, name)
 
 
-def _tree_file(tree: Tree, name: str) -> TreeFile:
-    builder = TreeBuilder()
+def _tree_files(trees: Iterable[Tree], words: VocabularyName) -> list[TreeFile]:
+    return [_tree_file(tree, f"tree {place}", words) for place, tree in enumerate(trees, 1)]
+
+
+def _tree_file(tree: Tree, name: str, words: VocabularyName) -> TreeFile:
+    builder = TreeBuilder(words)
     if isinstance(tree, str | Path):
         return builder.read_file(Path(tree))
     if isinstance(tree, Foon):

@@ -328,4 +328,6 @@ def _unit_facts(number: Name, unit: FunctionalUnit, inputs: Iterable[Name], outp
     # A video of more than 68 years is moved to where clingo can count; it takes as long as before.
     beyond = max(0, *known.values(), MOST) - MOST
     parts += [f"{name}({number},{max(0, seconds - beyond)})." for name, seconds in known.items()]
+    if unit.duration is not None:
+        parts.append(f"duration({number},{min(MOST, unit.duration)}).")
     return " ".join(parts)

@@ -113,6 +113,7 @@ _DETAILS = frozenset(
         "motion",
         "start",
         "end",
+        "duration",
     }
 )
 

@@ -26,6 +26,7 @@ def digest(sources: Sources) -> str:
         sources.strict,
         sources.match_relations,
         sources.level,
+        sources.vocabulary,
     ]
     return hashlib.sha256(json.dumps([named, settings]).encode()).hexdigest()
 

@@ -10,10 +10,12 @@ from foon_asp.cli.messages import shown, warn
 from foon_asp.cli.unknown_words import warn_of_unknown_words
 from foon_asp.errors import QueryError
 from foon_asp.io.findings import Finding, Severity
-from foon_asp.io.folder import Dataset, Sources, foon_files
+from foon_asp.io.folder import Dataset, Sources, foon_files, read_foon
 from foon_asp.io.kitchen import read_objects
-from foon_asp.io.trees import STDIN
+from foon_asp.io.open import FoonFiles
+from foon_asp.io.trees import STDIN, TreeBuilder, Trees, trees_beside
 from foon_asp.io.unknown_words import nearest
+from foon_asp.model.foon import Foon
 from foon_asp.model.node import ObjectNode
 from foon_asp.model.world import World
 from foon_asp.query.goals import Named, find_object
@@ -71,7 +73,22 @@ def sources(options: argparse.Namespace) -> Sources:
         strict=options.strict,
         match_relations=options.match_relations,
         level=options.level,
+        vocabulary=options.vocabulary,
     )
+
+
+def open_foon(options: argparse.Namespace, paths: Sequence[Path]) -> FoonFiles:
+    """Read FOON files as the options say, and warn of what of them is lost."""
+    files = read_foon(paths, options.strict_format, options.vocabulary)
+    warn_of_losses(options, files.findings)
+    return files
+
+
+def open_trees(options: argparse.Namespace, known: Foon) -> Trees:
+    """Read the files of trees beside a FOON that is known, and warn of what of them is lost."""
+    files = [TreeBuilder(options.vocabulary).read_file(Path(name)) for name in options.trees]
+    warn_of_losses(options, [finding for file in files for finding in file.findings])
+    return trees_beside(known, files)
 
 
 def open_world(options: argparse.Namespace) -> World:

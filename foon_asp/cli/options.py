@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from foon_asp.cli.parser import Parser
+from foon_asp.io.vocabulary import VOCABULARIES
 from foon_asp.model.consumption import SEMANTICS
 from foon_asp.model.relations import MATCHINGS, Matching
 from foon_asp.numbers import COST, COUNT, FACTOR, LEAST_SUCCESS, MEGABYTES, RATE, SECONDS, SOME, Number
@@ -73,7 +74,7 @@ def world(parser: Parser, match_relations: Matching = "strict") -> None:
         default=match_relations,
         help=f"strict: on is not in; loose: what is on, under, … counts as in (default: {match_relations})",
     )
-    _strict_format(group)
+    as_read(group)
     _level(group)
 
 
@@ -86,7 +87,7 @@ def costs(group: argparse._ActionsContainer) -> None:
 def reading(parser: Parser, *, level: bool = False) -> None:
     """Add how FOON files are read, for commands that know of no kitchen."""
     group = parser.add_argument_group("reading")
-    _strict_format(group)
+    as_read(group)
     if level:
         _level(group)
 
@@ -96,9 +97,22 @@ def data_folder(parser: argparse._ActionsContainer) -> None:
     parser.add_argument("--data", metavar="DIR", help="folder with FOON.txt (or subgraphs), kitchen.json, …")
 
 
-def _strict_format(group: argparse._ActionsContainer) -> None:
+def as_read(group: argparse._ActionsContainer) -> None:
+    """Add how FOON files are read."""
+    vocabulary(group)
     group.add_argument(
         "--strict-format", action="store_true", help="take anything odd in a FOON file as an error"
+    )
+
+
+def vocabulary(group: argparse._ActionsContainer) -> None:
+    """Add how words of older FOON files are read."""
+    group.add_argument(
+        "--vocabulary",
+        choices=VOCABULARIES,
+        default=VOCABULARIES[0],
+        help="words of older FOON text, like 'ingredients inside': read as the current ones (default), or"
+        " left as they are written",
     )
 
 

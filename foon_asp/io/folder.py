@@ -13,6 +13,7 @@ from foon_asp.io.files import exists, is_folder, is_store
 from foon_asp.io.findings import Finding, Severity
 from foon_asp.io.kitchen import read_labels, read_objects, read_rates, read_stock
 from foon_asp.io.open import FoonFiles, open_files
+from foon_asp.io.vocabulary import VocabularyName
 from foon_asp.model.foon import Foon
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.levels import FULL
@@ -56,13 +57,15 @@ class Dataset:
         )
 
 
-def read_foon(paths: Sequence[Path], strict: bool = False) -> FoonFiles:
+def read_foon(
+    paths: Sequence[Path], strict: bool = False, vocabulary: VocabularyName = "current"
+) -> FoonFiles:
     """Read FOON files, text, JSON or compiled stores, and merge them, duplicate units removed.
 
-    With `strict` anything odd is an error. Raises `InputError` if a file cannot be read as a FOON or no
-    functional unit is in any of them.
+    With `strict` anything odd is an error. With the vocabulary "as-written" words of older text files stay as
+    they are. Raises `InputError` if a file cannot be read as a FOON or no functional unit is in any of them.
     """
-    files = open_files(*paths, strict=strict)
+    files = open_files(*paths, strict=strict, words=vocabulary)
     if not files.foon.units:
         problem = "an empty FOON: no functional unit"
         for finding in files.findings:
@@ -102,6 +105,7 @@ class SourceKeys(TypedDict, total=False):
     strict: bool
     match_relations: Matching
     level: int
+    vocabulary: VocabularyName
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +128,7 @@ class Sources:
     strict: bool = False
     match_relations: Matching = "strict"
     level: int = FULL
+    vocabulary: VocabularyName = "current"
     shown: tuple[tuple[str, str], ...] = ()
 
     @classmethod
@@ -166,6 +171,7 @@ class Sources:
             files.get("strict", False),
             files.get("match_relations", "strict"),
             files.get("level", FULL),
+            files.get("vocabulary", "current"),
         )
 
     @property
@@ -202,7 +208,7 @@ class Sources:
 
     def load(self) -> Dataset:
         """Read all files; raise `InputError`. The FOON names its files as results do."""
-        files = read_foon([Path(path) for path in self.foon], strict=self.strict_format)
+        files = read_foon([Path(path) for path in self.foon], self.strict_format, self.vocabulary)
         stock = read_stock(Path(self.kitchen)) if self.kitchen else {}
         kitchen = Kitchen(
             objects=tuple(stock),

@@ -16,11 +16,12 @@ from foon_asp.io.findings import Finding, oddity
 from foon_asp.io.object_wire import object_to_json
 from foon_asp.io.objects import check_keys, object_from_json
 from foon_asp.io.syntax import (
+    FROM_NOTHING,
     LONGEST_TIME,
     LabelIds,
     check_sides,
-    check_times,
     clean,
+    known_times,
     parse_rate,
     parse_time,
     repeated,
@@ -30,12 +31,22 @@ from foon_asp.io.syntax import (
 )
 from foon_asp.io.wire import dumps
 from foon_asp.model.foon import Foon, FoonBuilder
-from foon_asp.model.node import Annotation, FunctionalUnit, Mark, ObjectId, ObjectNode, Source, contains
+from foon_asp.model.node import (
+    Annotation,
+    FunctionalUnit,
+    Interval,
+    Mark,
+    ObjectId,
+    ObjectNode,
+    Source,
+    contains,
+)
 
 _NO_MARK = Mark()
 _UNIT_KEYS = ("input_nodes", "motion_node", "output_nodes", "source")
+_TIME_KEYS = ("start_time", "end_time")
 _MOTION_KEYS = (
-    *("motion_label", "label", "start_time", "end_time", "robot_type", "weight_success", "motion_id"),
+    *("motion_label", "label", *_TIME_KEYS, "times", "robot_type", "weight_success", "motion_id"),
 )
 _OF_TEXT_ONLY = frozenset({"space-in-braces"})
 
@@ -105,14 +116,15 @@ class JsonReader:
             raise ValueError("the motion has no label")
         inputs, input_marks = self._read_side(item, "input_nodes")
         outputs, output_marks = self._read_side(item, "output_nodes")
+        if not inputs:
+            self.reported_units += 1
+            self._report(*FROM_NOTHING)
+            return
         marks = input_marks + output_marks
-        start, end = self._read_time(note, "start_time"), self._read_time(note, "end_time")
-        check_times(start, end, self._report)
         annotation = Annotation(
             sources=(Source(self._file, self._line, _one_line(item.get("source")) or video),),
             composite=composite,
-            start=start,
-            end=end,
+            times=self._read_times(note),
             agent=_one_line(note.get("robot_type")),
             rate=self._read_rate(note),
             marks=() if all(mark == _NO_MARK for mark in marks) else tuple(marks),
@@ -143,6 +155,24 @@ class JsonReader:
             return Mark(str(moves).lower() in ("1", "true"))
         self._report("stray-field", f"'object_in_motion' is {kind_of(moves)}, not 0 or 1")
         return _NO_MARK
+
+    def _read_times(self, note: dict[str, object]) -> tuple[Interval, ...]:
+        """Read start and end, or all of several intervals."""
+        listed = note.get("times")
+        if listed is None:
+            return known_times([self._read_interval(note)], self._report)
+        found = []
+        for each in listed if isinstance(listed, list) else [listed]:
+            if isinstance(each, dict):
+                check_keys(each, _TIME_KEYS, self._report)
+                found.append(self._read_interval(each))
+            else:
+                message = f'\'times\' has {kind_of(each)}, not {{"start_time": …, "end_time": …}}'
+                self._report("broken-time", message)
+        return known_times(found, self._report)
+
+    def _read_interval(self, note: dict[str, object]) -> Interval:
+        return Interval(*(self._read_time(note, key) for key in _TIME_KEYS))
 
     def _read_time(self, note: dict[str, object], key: str) -> float | None:
         value = note.get(key)
@@ -264,6 +294,10 @@ class _Api:
             "start_time": time_text(note.start),
             "end_time": time_text(note.end),
         }
+        if len(note.times) > 1:
+            value["times"] = [
+                {"start_time": time_text(each.start), "end_time": time_text(each.end)} for each in note.times
+            ]
         if note.agent:
             value["robot_type"] = note.agent
         if note.rate is not None:

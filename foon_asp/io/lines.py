@@ -16,19 +16,20 @@ import numpy.typing as npt
 
 from foon_asp import limits
 from foon_asp.characters import one_line, without_control_characters
-from foon_asp.io.mend import OF_ROWS, mend_row
+from foon_asp.io.mend import ANY_ID, OF_ROWS, mend_row
 from foon_asp.io.syntax import (
     Report,
-    check_times,
     make_state,
     parse_rate,
-    parse_state,
-    parse_time,
+    parse_times,
+    says_none,
     split_motion,
+    split_state,
 )
+from foon_asp.io.vocabulary import CURRENT, Vocabulary
 from foon_asp.model.arrays import Numbers
 from foon_asp.model.foon import FoonBuilder
-from foon_asp.model.node import Annotation, Mark, State
+from foon_asp.model.node import Annotation, Interval, Mark, State
 from foon_asp.model.numbering import different
 
 REST, OBJECT, MOTION, END, COMMENT, VIDEO, ORIGIN = range(7)
@@ -38,13 +39,13 @@ something: which video the units were seen in, and where the next one comes from
 Oddity = tuple[str, str, str]
 """Code, message and mend of what is odd in a line."""
 
-_HEAD = re.compile(r"([OM])\d*(?:[\t ]|\Z)|//|#")
-_ID = re.compile(r"[OSM]\d*(?: *\t *| +|$)")
+_HEAD = re.compile(rf"([OMom]){ANY_ID}(?:[\t ]|\Z)|//|#|[/\\]+[\t ]*\Z")
+_ID = re.compile(rf"[OSMosm]{ANY_ID}(?: *\t *| +|$)")
 """The id, and what parts it from the first field. A second tab ends that field, which is empty then."""
 
 _PLAIN_CONTENTS = re.compile(r"S\d*\tcontains\t\{([a-z]+(?:[ ,][a-z]+)*)\}")
 _LIKE_A_TIME = re.compile(r"[<\d]|assume|unknown|n/?a|-|$", re.IGNORECASE)
-_NOT_A_LABEL = re.compile(r"[\d!]*")
+_NOT_A_LABEL = re.compile(r"[\d!]*|none|null|n/a", re.IGNORECASE)
 
 _NO_MARK = Mark()
 _DOUBTFUL = frozenset({"unbalanced-brackets", "stray-text"})
@@ -78,8 +79,7 @@ class Motion:
 
     label: int
     composite: bool
-    start: float
-    end: float
+    times: tuple[Interval, ...]
     rate: float
     agent: int
 
@@ -87,8 +87,9 @@ class Motion:
 class Lines(dict[str, int]):
     """The different lines of text files, and what they say; words get numbers from a builder."""
 
-    def __init__(self, builder: FoonBuilder) -> None:
+    def __init__(self, builder: FoonBuilder, words: Vocabulary = CURRENT) -> None:
         super().__init__()
+        self._words = words
         self.texts: list[str] = []
         self.oddities: dict[int, tuple[Oddity, ...]] = {}
         self.cleaned: dict[int, tuple[int, bool]] = {}
@@ -147,7 +148,7 @@ class Lines(dict[str, int]):
         if odd is None:
             odd = (stray(self.texts[number]),) if is_stray else self.oddities.get(number, ())
             if is_repeated:
-                state, _ = read_state(self.texts[number])
+                state, _ = read_state(self.texts[number], self._words)
                 odd += (("duplicate-state", f"{str(state)!r} is said twice", ""),)
             self._odd_where[number, is_stray, is_repeated] = odd
         return odd
@@ -184,16 +185,16 @@ class Lines(dict[str, int]):
         """Return kind, code and mark of a line, and what is odd in it."""
         head = _HEAD.match(row)
         if head is None:
-            state, odd = read_state(row)
+            state, odd = read_state(row, self._words)
             if state is None:
                 return REST, -1, 0, odd
             return REST, self._builder.state(state.name, state.relatum, state.contents), 0, odd
-        if head[0] == "//":
+        if head[0][0] in "/\\":
             return END, -1, 0, read_end(row)
         if head[0] == "#":
             return *self._read_comment(row), 0, ()
-        if head[1] == "M":
-            label, note, odd = read_motion(row)
+        if head[1] in "Mm":
+            label, note, odd = read_motion(row, self._words)
             return MOTION, self._motion(label, note) if label else -1, 0, odd
         label, mark, odd = read_object(row)
         return OBJECT, self._builder.labels[label] if label else -1, self._builder.marks[mark], odd
@@ -214,8 +215,7 @@ class Lines(dict[str, int]):
         motion = Motion(
             self._builder.motions[label],
             note.composite,
-            math.nan if note.start is None else note.start,
-            math.nan if note.end is None else note.end,
+            note.times,
             math.nan if note.rate is None else note.rate,
             self._builder.agents[note.agent],
         )
@@ -236,14 +236,18 @@ BLANK = "blank-line", "a blank line", "delete the line"
 
 
 def read_end(row: str) -> tuple[Oddity, ...]:
-    """Read a `//` line."""
+    """Read a `//` line, or one of backslashes."""
+    if not row.startswith("//"):
+        return (
+            ("other-end", f"in another dialect {row.strip()[:60]!r} ends a unit, as '//' does", "write '//'"),
+        )
     rest = row.strip("/ \t")
     return (("stray-text", f"{rest!r} behind '//' is left out", ""),) if rest else ()
 
 
 def read_object(row: str) -> tuple[str, Mark, tuple[Oddity, ...]]:
     """Read `O<id?> label [flag [goal mark]]`; the label is empty if there is none."""
-    odd: list[tuple[str, str]] = []
+    odd = _odd_head(row)
     fields = _fields(row)
     label = fields[0].lower() if fields else ""
     if not label:
@@ -258,9 +262,9 @@ def read_object(row: str) -> tuple[str, Mark, tuple[Oddity, ...]]:
     return label, mark, _mended(row, odd)
 
 
-def read_motion(row: str) -> tuple[str, Annotation, tuple[Oddity, ...]]:
-    """Read `M<id?> label [start end | start-end] [agent rate]`; the label is empty if there is none."""
-    odd: list[tuple[str, str]] = []
+def read_motion(row: str, words: Vocabulary = CURRENT) -> tuple[str, Annotation, tuple[Oddity, ...]]:
+    """Read `M<id?> label [start end | intervals] [agent rate]`; the label is empty if there is none."""
+    odd = _odd_head(row)
     fields = _fields(row)
     label, composite = split_motion(fields[0].lower()) if fields else ("", False)
     if not label:
@@ -273,38 +277,31 @@ def read_motion(row: str) -> tuple[str, Annotation, tuple[Oddity, ...]]:
         label, composite = split_motion(" ".join(fields[: 1 + more]).lower())
         del fields[1 : 1 + more]
         odd.append(("tab-in-label", f"a tab inside of a label, read as {label!r}"))
-    start, end, rest = _read_times(fields[1:], odd)
+
+    def report(code: str, message: str) -> None:
+        odd.append((code, message))
+
+    label = words.motion(label, report)
+    times, count = parse_times(fields[1:], report)
+    rest = fields[1 + count :]
     agent = rest[0] if rest else ""
     rate = None
-    if len(rest) > 1 and rest[1]:
+    if len(rest) > 1 and not says_none(rest[1], report):
         rate = parse_rate(rest[1])
         if rate is None:
             odd.append(("broken-rate", f"{rest[1]!r} is not a chance between 0 and 1"))
     if len(rest) > 2:
         odd.append(("stray-field", f"{rest[2]!r} behind the success rate is left out"))
-    note = Annotation(composite=composite, start=start, end=end, agent=agent, rate=rate)
+    note = Annotation(composite=composite, times=times, agent=agent, rate=rate)
     return label, note, _mended(row, odd)
 
 
-def _read_times(
-    fields: list[str], odd: list[tuple[str, str]]
-) -> tuple[float | None, float | None, list[str]]:
-    """Take the times from the front of the fields; return start, end (seconds) and the rest."""
-    if not fields:
-        return None, None, []
-    first = fields[0].strip("<>")
-    joined = "-" in first.strip("-")
-    texts = first.split("-", 1) if joined else [first, *fields[1:2]]
-    times: list[float | None] = []
-    for text in texts:
-        try:
-            times.append(parse_time(text.strip("<> ")))
-        except ValueError as error:
-            odd.append(("broken-time", str(error)))
-            times.append(None)
-    start, end = [*times, None][:2]
-    check_times(start, end, lambda code, message: odd.append((code, message)))
-    return start, end, fields[1:] if joined else fields[2:]
+def _odd_head(row: str) -> list[tuple[str, str]]:
+    """Say what is odd in the letter that a line begins with."""
+    letter = row[0]
+    if letter.isupper():
+        return []
+    return [("lower-case", f"in the lower-case dialect {letter!r} stands for {letter.upper()!r}")]
 
 
 def read_origin(text: str) -> tuple[str, int]:
@@ -344,15 +341,21 @@ def _read_mark(fields: list[str], odd: list[tuple[str, str]]) -> Mark:
         return _NO_MARK
     moves: bool | None = None
     goal = ""
+
+    def report(code: str, message: str) -> None:
+        odd.append((code, message))
+
     for place, text in enumerate(fields):
         if place == 0 and text in ("0", "1"):
             moves = text == "1"
         elif place == 0 and text.strip("0") in ("", "1") and text:
             odd.append(("odd-flag", f"the flag {text!r} is read as {text[-1]!r}"))
             moves = text[-1] == "1"
-        elif text and not goal and (text == "!" or (place > 0 and text.isdigit())):
+        elif says_none(text, report):
+            pass
+        elif not goal and (text == "!" or (place > 0 and text.isdigit())):
             goal = text
-        elif text:
+        else:
             odd.append(("stray-field", f"{text!r} is neither a flag nor a goal mark"))
     return Mark(moves, goal) if goal or moves is not None else _NO_MARK
 
@@ -367,23 +370,23 @@ def _plain_contents(row: str) -> list[str] | None:
     return contents if contents and len(set(contents)) == len(contents) else None
 
 
-def read_state(row: str) -> tuple[State | None, tuple[Oddity, ...]]:
+def read_state(row: str, words: Vocabulary = CURRENT) -> tuple[State | None, tuple[Oddity, ...]]:
     """Read an `S` line of an object."""
     if not row.strip():
         return None, (BLANK,)
     odd: list[tuple[str, str]] = []
-    state = _state_of(row, lambda code, message: odd.append((code, message)))
+    state = _state_of(row, words, lambda code, message: odd.append((code, message)))
     all_codes = {code for code, _ in odd}
     codes = OF_ROWS & all_codes
-    mend = _state_mend(row, state, codes) if codes and _DOUBTFUL.isdisjoint(all_codes) else ""
+    mend = _state_mend(row, state, codes, words) if codes and _DOUBTFUL.isdisjoint(all_codes) else ""
     return state, tuple((code, message, mend if code in codes else "") for code, message in odd)
 
 
-def _state_mend(row: str, state: State | None, codes: frozenset[str]) -> str:
+def _state_mend(row: str, state: State | None, codes: frozenset[str], words: Vocabulary) -> str:
     """Return how to mend a state line, or nothing if that would change what it says."""
     mended = mend_row(row, codes)
     left: list[tuple[str, str]] = []
-    same = _state_of(mended, lambda code, message: left.append((code, message))) == state
+    same = _state_of(mended, words, lambda code, message: left.append((code, message))) == state
     certain = same and OF_ROWS.isdisjoint(code for code, _ in left)
     return f"write {mended!r}" if certain else ""
 
@@ -398,20 +401,23 @@ def _row_mend(row: str, code: str) -> str:
     return f"write {mended!r}" if mended != row else ""
 
 
-def _state_of(row: str, report: Report) -> State | None:
+def _state_of(row: str, words: Vocabulary, report: Report) -> State | None:
     if not _ID.match(row):
         report("unreadable-line", f"cannot read {row[:60]!r}")
         return None
+    for code, message in _odd_head(row):
+        report(code, message)
     fields = _fields(row)
-    if not fields or not fields[0]:
+    glued = bool(fields) and any(mark in fields[0] for mark in "[]{}")
+    if fields and fields[0] and (glued or "\t" not in row):
+        report("missing-tab", f"no tab {'before the bracket ' if glued else ''}in {row!r}")
+    name, detail = (
+        split_state(" ".join(fields))
+        if glued
+        else (fields[0].lower() if fields else "", " ".join(fields[1:]))
+    )
+    if not name:
         report("state-without-name", f"no state in {row!r}")
         return None
-    glued = any(mark in fields[0] for mark in "[]{}")
-    if glued or "\t" not in row:
-        report("missing-tab", f"no tab {'before the bracket ' if glued else ''}in {row!r}")
-    if not glued:
-        return make_state(fields[0].lower(), " ".join(fields[1:]), report)
-    state = parse_state(" ".join(fields), report)
-    if state is None:
-        report("state-without-name", f"no state in {row!r}")
-    return state
+    name, detail = words.state(name, detail, report)
+    return make_state(name, detail, report) if name else None

@@ -9,24 +9,34 @@ from foon_asp.characters import without_control_characters
 from foon_asp.io.findings import Finding
 
 OF_ROWS = frozenset(
-    {"missing-tab", "contains-in-brackets", "place-in-braces", "stray-comma", "space-in-braces", "odd-flag"}
+    {
+        *("missing-tab", "contains-in-brackets", "place-in-braces", "stray-comma", "space-in-braces"),
+        *("odd-flag", "lower-case", "other-end"),
+    }
 )
 """The codes that a change inside of one line can mend."""
+
+ANY_ID = r"(?:[0-9]*|(?i:none|null|n/a))"
+"""An id in a pattern: digits, nothing, or a word for nothing. Ids do not count."""
 
 _DELETED = frozenset({"blank-line", "empty-unit"})
 _MENDED = OF_ROWS | _DELETED | {"byte-order-mark", "control-character", "unit-not-closed"}
 _LINE_END = re.compile(r"(\r\n|\r|\n)")
 # Anchored: tried at every place, what matches nowhere takes the square of its length.
-_HEAD = re.compile(r"\A([OSM][0-9]*) +(?=[^ \t])")
-_GLUED = re.compile(r"\A(S[0-9]*\t[^\t\[\]{}]*[^\t\[\]{} ]) *(?=[\[{])")
+_HEAD = re.compile(rf"\A([OSMosm]{ANY_ID}) +(?=[^ \t])")
+_GLUED = re.compile(rf"\A([Ss]{ANY_ID}\t[^\t\[\]{{}}]*[^\t\[\]{{}} ]) *(?=[\[{{])")
 _BRACES = re.compile(r"\{([^\[\]{}]*)\}")
-_FLAG = re.compile(r"\A(O[0-9]*(?: *\t *| +)[^\t]*\t *)0+([01])(?=[ ]*(?:\t|\Z))")
+_FLAG = re.compile(rf"\A([Oo]{ANY_ID}(?: *\t *| +)[^\t]*\t *)0+([01])(?=[ ]*(?:\t|\Z))")
 _TO_BRACES = str.maketrans("[]", "{}")
 _TO_BRACKETS = str.maketrans("{}", "[]")
 
 
 def mend_row(row: str, codes: Collection[str]) -> str:
     """Return a line with what the codes name mended; the same line where the mend is not certain."""
+    if "other-end" in codes:
+        return "//"
+    if "lower-case" in codes:
+        row = row[:1].upper() + row[1:]
     if "missing-tab" in codes:
         row = _GLUED.sub(r"\1\t", _HEAD.sub(r"\1\t", row, count=1), count=1)
     if "contains-in-brackets" in codes:

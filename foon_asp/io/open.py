@@ -15,8 +15,10 @@ from foon_asp.errors import InputError
 from foon_asp.io.document import JSON_ADVICE, VALUE
 from foon_asp.io.files import is_store, read_bytes
 from foon_asp.io.findings import USUAL, Finding, Severity, oddity
+from foon_asp.io.mend import ANY_ID
 from foon_asp.io.syntax import other_rate
 from foon_asp.io.text import TextReader
+from foon_asp.io.vocabulary import VocabularyName, vocabulary
 from foon_asp.model.foon import Foon, FoonBuilder
 
 if TYPE_CHECKING:
@@ -52,7 +54,7 @@ _LINE = re.compile(rb"[^\r\n]*(?:\r\n|\r|\n|\Z)")
 _JSON = re.compile(r"[\s\x00-\x1f\x7f-\x9f\ufeff]*[\[{]")
 
 
-_OF_TEXT = re.compile(r"(?:\A|[\r\n])[^\w\r\n]*[OM]\d*(?:[\t \r\n]|\Z)")
+_OF_TEXT = re.compile(rf"(?:\A|[\r\n])[^\w\r\n]*(?:[OM]{ANY_ID}(?:[\t \r\n]|\Z)|[om]{ANY_ID}\t)")
 """A line of FOON text that is an object or a motion."""
 
 
@@ -68,10 +70,16 @@ _TEXT_ADVICE = "a unit is O and S lines, an M line, O and S lines, and '//'"
 class FoonReader:
     """Reads FOON files, one after the other, into one FOON."""
 
-    def __init__(self, *, strict: bool = False, builder: FoonBuilder | None = None) -> None:
+    def __init__(
+        self,
+        *,
+        strict: bool = False,
+        builder: FoonBuilder | None = None,
+        words: VocabularyName = "current",
+    ) -> None:
         self._strict = strict
         self._builder = FoonBuilder() if builder is None else builder
-        self._text = TextReader(self._builder)
+        self._text = TextReader(self._builder, vocabulary(words))
         self._json: JsonReader | None = None
         self._findings: list[Finding] = []
         self._reported = 0
@@ -116,7 +124,7 @@ class FoonReader:
         with _no_search_for_cycles():
             reader.read(text, str(path))
         findings += reader.findings
-        if self._builder.read == read and (in_json or self.units_reported == reported):
+        if self._builder.read == read and not _has_units(findings, self.units_reported - reported, in_json):
             _refuse_unreadable(findings, path, JSON_ADVICE if in_json else _TEXT_ADVICE)
         if self._strict:
             _refuse_odd(findings, path)
@@ -137,10 +145,11 @@ class FoonReader:
         )
 
 
-def open_files(*paths: Path, strict: bool = False) -> FoonFiles:
+def open_files(*paths: Path, strict: bool = False, words: VocabularyName = "current") -> FoonFiles:
     """Read FOON files, text, JSON or stores, and merge them; a store alone is opened as it is.
 
-    With `strict` anything odd is an error. Raises `InputError` if one cannot be read as a FOON.
+    With `strict` anything odd is an error. `words` says how words of older text files are read. Raises
+    `InputError` if one cannot be read as a FOON.
     """
     if len(paths) == 1 and is_store(paths[0]):
         # pyarrow takes a while to load, and most questions are about files.
@@ -150,7 +159,7 @@ def open_files(*paths: Path, strict: bool = False) -> FoonFiles:
         if strict:
             _refuse_odd(files.findings, paths[0])
         return files
-    reader = FoonReader(strict=strict)
+    reader = FoonReader(strict=strict, words=words)
     for path in paths:
         reader.read(path)
     return reader.finish()
@@ -217,6 +226,13 @@ def _refuse_pickle(data: bytes, path: Path) -> None:
             "a pickle, which can run any code when it is loaded, so it never is",
             "save the FOON as text or JSON where the pickle was made",
         )
+
+
+def _has_units(findings: Iterable[Finding], reported: int, in_json: bool) -> bool:
+    """Tell whether what was left out of a file were units: then it is a FOON, though there is none in it."""
+    if in_json:
+        return any(finding.code == "unit-without-inputs" for finding in findings)
+    return reported > 0
 
 
 def _refuse_unreadable(findings: list[Finding], path: Path, advice: str) -> None:

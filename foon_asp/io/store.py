@@ -32,11 +32,14 @@ from foon_asp.io.files import (
 )
 from foon_asp.io.open import FoonFiles
 from foon_asp.io.overwriting import refuse_inputs
-from foon_asp.io.store_tables import SCHEMAS, from_tables, to_tables
+from foon_asp.io.store_tables import FIRST_SCHEMAS, SCHEMAS, from_tables, to_tables
 from foon_asp.io.wire import Count, JsonObject, converted
 from foon_asp.resources import program_version
 
-VERSION = 1
+VERSION = 2
+
+_READ = (1, VERSION)
+"""The versions that this program reads: in the first one a unit had but one interval."""
 
 _COMPILE_AGAIN = "compile it again: foon-asp compile FOON.txt -o KB.foon"
 
@@ -141,9 +144,10 @@ def open_store(folder: Path) -> FoonFiles:
         entries = converted(manifest, _Manifest).tables
     except msgspec.ValidationError as error:
         raise _damaged(folder, f"{MANIFEST}: {error}") from None
-    if missing := [name for name in SCHEMAS if name not in entries]:
+    schemas = SCHEMAS if manifest["version"] == VERSION else FIRST_SCHEMAS
+    if missing := [name for name in schemas if name not in entries]:
         raise _damaged(folder, f"{MANIFEST} does not name the table {missing[0]!r}")
-    tables = {name: _read_table(folder, name, entries[name]) for name in SCHEMAS}
+    tables = {name: _read_table(folder, name, entries[name]) for name in schemas}
     try:
         foon, findings = from_tables(tables)
     except (ValueError, pa.ArrowException) as error:
@@ -163,11 +167,12 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     manifest = parse_json(read_string(path), path)
     if not isinstance(manifest, dict) or manifest.get("format") != STORE_FORMAT:
         raise InputError(path, None, "this does not describe a store of foon-asp", _COMPILE_AGAIN)
-    if manifest.get("version") != VERSION:
+    if manifest.get("version") not in _READ:
         raise InputError(
             folder,
             None,
-            f"a store of version {manifest.get('version')!r}, and this program reads version {VERSION}",
+            f"a store of version {manifest.get('version')!r}, and this program reads version"
+            f" {' and '.join(map(str, _READ))}",
             "update foon-asp, or " + _COMPILE_AGAIN,
         )
     if manifest.get("sha256") != _seal(manifest):

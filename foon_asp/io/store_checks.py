@@ -116,6 +116,12 @@ def _check_units(units: UnitTable) -> None:
     _check_between(notes.rate, 1, "success rates")
     _check_between(notes.start, LONGEST_TIME, "start times")
     _check_between(notes.end, LONGEST_TIME, "end times")
+    places, said = notes.times.values, np.zeros(len(units), np.bool_)
+    said[notes.times.owners[~(np.isnan(notes.start[places]) & np.isnan(notes.end[places]))]] = True
+    if (~said & (notes.times.lengths > 0)).any():
+        raise ValueError("a unit has times of which nothing is known")
+    if (units.inputs.lengths == 0).any():
+        raise ValueError("a unit has no input")
     _each(notes.agents, _is_field, "agent")
     _each(notes.videos, _is_field, "video")
     if len(notes.line) and notes.line.min() < 0:

@@ -22,6 +22,7 @@ from foon_asp.model.tables import Notes, ObjectTable, StateTable, UnitTable
 
 _ID = pa.int32()
 _WORD = pa.dictionary(pa.int32(), pa.string())
+_TIMES = (("start", pa.float64()), ("end", pa.float64()))
 _PORTS = pa.schema([("unit", _ID), ("object", _ID), ("moves", pa.bool_()), ("goal", _WORD)])
 
 SCHEMAS: Mapping[str, pa.Schema] = {
@@ -34,12 +35,11 @@ SCHEMAS: Mapping[str, pa.Schema] = {
             ("unit", _ID),
             ("motion", _WORD),
             ("composite", pa.bool_()),
-            ("start", pa.float64()),
-            ("end", pa.float64()),
             ("agent", _WORD),
             ("rate", pa.float64()),
         ]
     ),
+    "times": pa.schema([("unit", _ID), *_TIMES]),
     "inputs": _PORTS,
     "outputs": _PORTS,
     "provenance": pa.schema([("unit", _ID), ("file", _WORD), ("line", _ID), ("video", _WORD)]),
@@ -55,7 +55,13 @@ SCHEMAS: Mapping[str, pa.Schema] = {
     ),
 }
 """The columns of each table. The states of an object are ids into `states`, in their canonical order; the
-inputs, outputs and places of a unit stand together, in their order."""
+times, inputs, outputs and places of a unit stand together, in their order."""
+
+FIRST_SCHEMAS: Mapping[str, pa.Schema] = {
+    **{name: schema for name, schema in SCHEMAS.items() if name != "times"},
+    "units": pa.schema([*list(SCHEMAS["units"])[:3], *_TIMES, *list(SCHEMAS["units"])[3:]]),
+}
+"""The columns of the first version, in which a unit had one interval, beside what else was noted of it."""
 
 
 def to_tables(foon: Foon, findings: Sequence[Finding]) -> dict[str, pa.Table]:
@@ -64,6 +70,7 @@ def to_tables(foon: Foon, findings: Sequence[Finding]) -> dict[str, pa.Table]:
         "objects": _objects(foon.objects),
         "states": _states(foon.objects.kinds),
         "units": _units(foon.units),
+        "times": _times(foon.units.notes),
         "inputs": _ports(foon.units.inputs, foon.units.notes.in_marks, foon.units.notes.marks),
         "outputs": _ports(foon.units.outputs, foon.units.notes.out_marks, foon.units.notes.marks),
         "provenance": _provenance(foon.units.notes),
@@ -99,11 +106,15 @@ def _units(units: UnitTable) -> list[pa.Array]:
         _ids(len(units)),
         _words(units.motion, units.motions),
         pa.array(notes.composite),
-        pa.array(notes.start, from_pandas=True),
-        pa.array(notes.end, from_pandas=True),
         _words(notes.agent, notes.agents),
         pa.array(notes.rate, from_pandas=True),
     ]
+
+
+def _times(notes: Notes) -> list[pa.Array]:
+    places = notes.times.values
+    columns = (notes.start[places], notes.end[places])
+    return [pa.array(notes.times.owners), *(pa.array(each, from_pandas=True) for each in columns)]
 
 
 def _ports(ports: Rows[UnitId, ObjectId], codes: Numbers, marks: Sequence[Mark]) -> list[pa.Array]:
@@ -149,9 +160,10 @@ def _encoded(words: Iterable[str | None]) -> pa.Array:
 def from_tables(tables: Mapping[str, pa.Table]) -> tuple[Foon, list[Finding]]:
     """Return the FOON of some tables, and what was odd in its files.
 
-    Raises `ValueError` if the tables do not fit together, or say what no file could have said.
+    Those of the first version are read, too. Raises `ValueError` if the tables do not fit together, or say
+    what no file could have said.
     """
-    check_columns(tables, SCHEMAS)
+    check_columns(tables, SCHEMAS if "times" in tables else FIRST_SCHEMAS)
     objects = _read_objects(tables["objects"], _read_states(tables["states"]))
     units = tables["units"]
     count = len(units)
@@ -164,10 +176,12 @@ def from_tables(tables: Mapping[str, pa.Table]) -> tuple[Foon, list[Finding]]:
     )
     file, files = _codes(tables["provenance"], "file")
     video, videos = _codes(tables["provenance"], "video")
+    times, start, end = _read_times(tables, count)
     notes = Notes(
         units["composite"].to_numpy(),
-        _known(units, "start"),
-        _known(units, "end"),
+        times,
+        start,
+        end,
         _known(units, "rate"),
         agent,
         agents,
@@ -215,6 +229,19 @@ def _read_objects(table: pa.Table, kinds: StateTable) -> ObjectTable:
     states: Rows[ObjectId, int] = Rows(lists.offsets.to_numpy().astype(np.int64), lists.values.to_numpy())
     _check_range(states.values, len(kinds), "states")
     return ObjectTable(labels, label, kinds, states)
+
+
+def _read_times(
+    tables: Mapping[str, pa.Table], units: int
+) -> tuple[Rows[UnitId, int], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Return the intervals of each unit, and when each starts and ends."""
+    table = tables.get("times", tables["units"])
+    start, end = _known(table, "start"), _known(table, "end")
+    places = np.arange(len(table), dtype=np.int32)
+    if "times" in tables:
+        return _rows(table, places, units), start, end
+    rows: Rows[UnitId, int] = Rows.parted(places, np.ones(units, np.int64))
+    return rows.where(~(np.isnan(start) & np.isnan(end))), start, end
 
 
 def _read_ports(table: pa.Table, units: int, objects: int) -> Rows[UnitId, ObjectId]:

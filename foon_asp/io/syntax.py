@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from foon_asp.characters import one_line
 from foon_asp.model.foon import Added, Foon
-from foon_asp.model.node import FunctionalUnit, ObjectId, State
+from foon_asp.model.node import FunctionalUnit, Interval, ObjectId, State
 from foon_asp.model.notation import PLACES
 
 Report = Callable[[str, str], None]
@@ -39,11 +39,15 @@ def clean(text: str, report: Report = quiet) -> str:
 
 def parse_state(text: str, report: Report = quiet) -> State | None:
     """Read `name`, `name [relatum]` or `name {content, content}`; None if there is no name."""
+    name, detail = split_state(text)
+    return make_state(name, detail, report) if name else None
+
+
+def split_state(text: str) -> tuple[str, str]:
+    """Return the name of a state, which may be empty, and what stands in brackets behind it."""
     match = _STATE.fullmatch(text)
-    name = match["name"].strip().lower() if match else ""
-    if match is None or not name:
-        return None
-    return make_state(name, match["rest"], report)
+    assert match is not None
+    return match["name"].strip().lower(), match["rest"]
 
 
 _GLUED = re.compile(rf"(contains|{'|'.join(sorted(PLACES))}) +(.+)", re.DOTALL)
@@ -165,7 +169,7 @@ LONGEST_TIME = 4e9
 """The number of seconds that no time goes beyond: six digits of hours, eight of minutes."""
 
 
-_UNKNOWN_TIME = re.compile(r"assume|unknown|n/?a|-*$", re.IGNORECASE)
+_UNKNOWN_TIME = re.compile(r"assume|unknown|n/?a|(?:none|null)$|-*$", re.IGNORECASE)
 
 
 def split_motion(label: str) -> tuple[str, bool]:
@@ -214,14 +218,85 @@ def parse_rate(value: object) -> float | None:
     return rate if 0 <= rate <= 1 else None
 
 
-def check_times(start: float | None, end: float | None, report: Report) -> None:
-    """Report times that run backwards."""
-    if start is not None and end is not None and end < start:
-        report("times-backwards", f"the motion ends ({time_text(end)}) before it starts")
+def known_times(times: Sequence[Interval], report: Report = quiet) -> tuple[Interval, ...]:
+    """Return intervals as they are noted, none if nothing is known; report what ends too early."""
+    for each in times:
+        if each.start is not None and each.end is not None and each.end < each.start:
+            report("times-backwards", f"the motion ends ({time_text(each.end)}) before it starts")
+    return tuple(times) if any(each != Interval() for each in times) else ()
+
+
+_BRACKETS = "<>[]()"
+
+_IN_BRACKETS = re.compile(r"<[^<>\[\]()]*>|\[[^<>\[\]()]*\]|\([^<>\[\]()]*\)|[^<>\[\]()]*")
+"""What stands in brackets of one kind, or in none."""
+
+
+def parse_times(fields: Sequence[str], report: Report) -> tuple[tuple[Interval, ...], int]:
+    """Read when a motion was done from the front of some fields; return that, and how many fields it took.
+
+    Two columns say start and end. One field says intervals, `<start-end,start-end>`, the brackets left out or
+    not, or else `start,end`.
+    """
+    if not fields:
+        return (), 0
+    first = fields[0].strip(_BRACKETS)
+    count = 1 if "," in first or "-" in first.strip("-") or _is_whole(fields) else min(2, len(fields))
+    taken = fields[:count]
+    if not (_IN_BRACKETS.fullmatch("".join(taken)) or all(map(_IN_BRACKETS.fullmatch, taken))):
+        report("unbalanced-brackets", f"the brackets of {' '.join(taken)!r} do not match")
+    groups = [text.strip() for text in first.split(",")]
+    if count == 2:
+        pairs = [[field.strip(_BRACKETS) for field in taken]]
+    elif len(groups) == 2 and not any("-" in group.strip("-") for group in groups):
+        pairs = [groups]
+    else:
+        pairs = [group.split("-") if group.strip("-") else [group] for group in groups]
+    return known_times([_interval(pair, report) for pair in pairs], report), count
+
+
+def _is_whole(fields: Sequence[str]) -> bool:
+    """Tell whether a time in brackets has no second one beside it."""
+    in_brackets = fields[0].startswith("<") and fields[0].endswith(">")
+    return in_brackets and len(fields) > 1 and fields[1][:1] not in _BRACKETS and not _is_time(fields[1])
+
+
+def _is_time(text: str) -> bool:
+    try:
+        parse_time(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _interval(texts: Sequence[str], report: Report) -> Interval:
+    """Read start and end; what cannot be read is not known."""
+    times: list[float | None] = []
+    for text in texts[:2]:
+        try:
+            times.append(parse_time(text.strip()))
+        except ValueError as error:
+            report("broken-time", str(error))
+            times.append(None)
+    if len(texts) > 2:
+        report("broken-time", f"{'-'.join(texts)!r} is more than a start and an end")
+    return Interval(*times)
+
+
+def times_fields(times: Sequence[Interval]) -> list[str]:
+    """Write when a motion was done: two columns, or one field with all intervals."""
+    if len(times) > 1:
+        return [f"<{','.join(f'{time_text(each.start)}-{time_text(each.end)}' for each in times)}>"]
+    [one] = times or [Interval()]
+    return [time_text(one.start), time_text(one.end)]
+
+
+FROM_NOTHING = ("unit-without-inputs", "a unit without inputs is left out: nothing is made from nothing")
+"""Code and message of a unit that would make something of nothing."""
 
 
 def check_sides(inputs: Sequence[ObjectId], outputs: Sequence[ObjectId]) -> list[tuple[str, str]]:
-    """Return code and message of each side of a unit that is empty or lists an object twice."""
+    """Return code and message of each side of a unit that lists an object twice, or no output."""
     if inputs and outputs and len(set(inputs)) == len(inputs) and len(set(outputs)) == len(outputs):
         return []
     found = []

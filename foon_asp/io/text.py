@@ -15,9 +15,10 @@ import numpy as np
 from foon_asp import limits
 from foon_asp.io.findings import Finding, oddity
 from foon_asp.io.lines import END, Lines
-from foon_asp.io.syntax import LabelIds, check_sides, repeated, time_text
+from foon_asp.io.syntax import FROM_NOTHING, LabelIds, check_sides, repeated, times_fields
 from foon_asp.io.units import Units, ranks
-from foon_asp.model.arrays import Mask, Numbers, distinct, places
+from foon_asp.io.vocabulary import CURRENT, Vocabulary
+from foon_asp.model.arrays import Mask, Numbers, Rows, distinct, places
 from foon_asp.model.foon import Foon, FoonBuilder, UnitColumns
 from foon_asp.model.node import FunctionalUnit, Mark, ObjectId, ObjectNode, State
 
@@ -35,11 +36,11 @@ _AT_ONCE = 1 << 14
 class TextReader:
     """Reads text files into one builder: numbers the lines, and puts units together on the numbers."""
 
-    def __init__(self, builder: FoonBuilder) -> None:
+    def __init__(self, builder: FoonBuilder, words: Vocabulary = CURRENT) -> None:
         self.findings: list[Finding] = []
         self.reported_units = 0
         self._builder = builder
-        self._lines = Lines(builder)
+        self._lines = Lines(builder, words)
         self._file = ""
 
     def read(self, text: str, file: str) -> None:
@@ -83,6 +84,10 @@ class TextReader:
         motions = distinct(codes)
         motion, _ = places(codes, motions)
         said = [self._lines.motions[code] for code in motions.tolist()]
+        intervals = [interval for each in said for interval in each.times]
+        times: Rows[int, int] = Rows.parted(
+            np.arange(len(intervals), dtype=np.int32), [len(each.times) for each in said]
+        )
         repeats = self._builder.units(
             UnitColumns(
                 np.array([each.label for each in said], np.int32)[motion],
@@ -91,8 +96,9 @@ class TextReader:
                 inputs.marks,
                 outputs.marks,
                 np.array([each.composite for each in said], np.bool_)[motion],
-                np.array([each.start for each in said], np.float64)[motion],
-                np.array([each.end for each in said], np.float64)[motion],
+                Rows.parted(times.gather(motion), times.lengths[motion]),
+                np.array([each.start for each in intervals], np.float64),
+                np.array([each.end for each in intervals], np.float64),
                 np.array([each.rate for each in said], np.float64)[motion],
                 np.array([each.agent for each in said], np.int32)[motion],
                 self._places(units, line),
@@ -132,6 +138,7 @@ class TextReader:
         """
         odd = ~units.readable
         odd[units.readable] = units.known.odd[units.lines[units.motion[units.readable]]]
+        odd[units.is_from_nothing] = True
         odd[[*found]] = True
         odd[len(units.ends) :] = True
         chosen = np.flatnonzero(odd)
@@ -177,6 +184,8 @@ class TextReader:
         elif units.readable[unit]:
             for one in self._lines.oddities.get(int(units.lines[motion]), ()):
                 self._report(line + motion, *one)
+            if units.is_from_nothing[unit]:
+                self._report(begin, *FROM_NOTHING)
             for code, message in found:
                 self._report(begin, code, message)
         if unit == len(units.ends):
@@ -278,7 +287,7 @@ class _Annotated:
         note = unit.annotation
         rate = "" if note.rate is None else repr(note.rate)
         label = unit.motion + "*" * note.composite
-        fields = [label, time_text(note.start), time_text(note.end), note.agent, rate]
+        fields = [label, *times_fields(note.times), note.agent, rate]
         return f"M{self._ids.motions[unit.motion]}\t" + "\t".join(fields).rstrip("\t")
 
 

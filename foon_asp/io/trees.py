@@ -9,6 +9,7 @@ from pathlib import Path
 from foon_asp.io.files import read_bytes
 from foon_asp.io.findings import Finding
 from foon_asp.io.open import FoonFiles, FoonReader
+from foon_asp.io.vocabulary import VocabularyName
 from foon_asp.model.foon import Added, Foon, FoonBuilder
 from foon_asp.model.node import Annotation, FunctionalUnit, ObjectId, ObjectNode, Source, UnitId
 
@@ -53,8 +54,10 @@ class TreeFile:
 class TreeBuilder(FoonBuilder):
     """Remembers the units that are added one by one, the places where they were read, and in which part."""
 
-    def __init__(self) -> None:
+    def __init__(self, words: VocabularyName = "current") -> None:
+        """Start with nothing; `words` says how words of older text files are read."""
         super().__init__()
+        self._words = words
         self._order: list[tuple[int, UnitId, Source]] = []
         self._part: Callable[[], int] = lambda: 0
 
@@ -68,7 +71,7 @@ class TreeBuilder(FoonBuilder):
 
     def read_file(self, path: Path) -> TreeFile:
         """Read the trees of a file, `-` for standard input; raise `InputError` if it is no FOON."""
-        reader = FoonReader(builder=self)
+        reader = FoonReader(builder=self, words=self._words)
         self._part = lambda: reader.part
         if str(path) == STDIN:
             reader.read_data(read_bytes(Path("/dev/stdin")), path)

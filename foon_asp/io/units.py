@@ -78,8 +78,11 @@ class Units:
         """Which units have one motion, and objects with labels."""
         self.readable[self.unit_of_object[known.code[lines[self.objects]] < 0]] = False
         self.whole = self.readable.copy()
-        """Which of these also have a motion with a label: the units that there are."""
+        """Which of these also have a motion with a label and an input: the units that there are."""
         self.whole[self.readable] = known.code[lines[self.motion[self.readable]]] >= 0
+        self.is_from_nothing = self.whole & (self.motion <= self.first)
+        """Which of these have no input. They are left out, too: nothing is made from nothing."""
+        self.whole &= ~self.is_from_nothing
 
     def _find_states(self, kind: Kinds) -> None:
         """Tell the states of objects from lines that stand elsewhere."""

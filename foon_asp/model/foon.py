@@ -90,9 +90,9 @@ class Added(Enum):
 class UnitColumns:
     """Many units at once, by the numbers that a builder has given to their words, objects, marks and files.
 
-    A side lists an object once. As in `Notes`, times and rates that are not known are NaN, and marks run
-    parallel to the values of a side. `places` are where the units were read: the place of the unit in these
-    columns, file, line and video.
+    A side lists an object once. As in `Notes`, times and rates that are not known are NaN, `times` are rows
+    of numbers into `start` and `end`, and marks run parallel to the values of a side. `places` are where the
+    units were read: the place of the unit in these columns, file, line and video.
     """
 
     motion: Numbers
@@ -101,6 +101,7 @@ class UnitColumns:
     in_marks: Numbers
     out_marks: Numbers
     composite: npt.NDArray[np.bool_]
+    times: Rows[Any, int]
     start: npt.NDArray[np.float64]
     end: npt.NDArray[np.float64]
     rate: npt.NDArray[np.float64]
@@ -144,6 +145,7 @@ class FoonBuilder:
         self._in_marks = array("i")
         self._out_marks = array("i")
         self._composite = array("b")
+        self._times: _Ragged[UnitId, int] = _Ragged()
         self._start = array("d")
         self._end = array("d")
         self._rate = array("d")
@@ -190,8 +192,10 @@ class FoonBuilder:
             column.extend(map(first.__getitem__, kept))
         self._motion.append(label)
         self._composite.append(note.composite)
-        self._start.append(math.nan if note.start is None else note.start)
-        self._end.append(math.nan if note.end is None else note.end)
+        self._times.append(range(len(self._start), len(self._start) + len(note.times)))
+        for interval in note.times:
+            self._start.append(math.nan if interval.start is None else interval.start)
+            self._end.append(math.nan if interval.end is None else interval.end)
         self._rate.append(math.nan if note.rate is None else note.rate)
         self._agent.append(self.agents[note.agent])
         return number, Added.NEW
@@ -212,8 +216,11 @@ class FoonBuilder:
             _extend(column, marks[np.repeat(new, side.lengths)])
         _extend(self._motion, units.motion[new])
         _extend(self._composite, units.composite[new].view(np.int8))
-        _extend(self._start, units.start[new])
-        _extend(self._end, units.end[new])
+        times = units.times.chosen(new)
+        known = len(self._start)
+        _extend(self._start, units.start[times.values])
+        _extend(self._end, units.end[times.values])
+        self._times.extend(Rows(times.offsets, np.arange(known, len(self._start), dtype=np.int32)))
         _extend(self._rate, units.rate[new])
         _extend(self._agent, units.agent[new])
         return [
@@ -253,6 +260,7 @@ class FoonBuilder:
             marks[notes.in_marks],
             marks[notes.out_marks],
             notes.composite,
+            notes.times,
             notes.start,
             notes.end,
             notes.rate,
@@ -293,6 +301,7 @@ class FoonBuilder:
         videos, video = _used(self.videos, video)
         notes = Notes(
             np.array(self._composite, dtype=np.bool_),
+            self._times.rows(),
             np.array(self._start, dtype=np.float64),
             np.array(self._end, dtype=np.float64),
             np.array(self._rate, dtype=np.float64),

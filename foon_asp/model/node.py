@@ -232,20 +232,43 @@ class Mark:
 
 
 @dataclass(frozen=True, slots=True)
+class Interval:
+    """A stretch of a video, in seconds from its beginning; None where that is not known."""
+
+    start: float | None = None
+    end: float | None = None
+
+    @property
+    def duration(self) -> int:
+        """How many seconds it takes; 0 if that is not known, or if it ends before it starts."""
+        return 0 if self.start is None or self.end is None else max(0, round(self.end) - round(self.start))
+
+
+@dataclass(frozen=True, slots=True)
 class Annotation:
     """What the annotator noted of a unit beside its meaning; nothing here is part of its identity.
 
-    `start` and `end` are seconds into the video; `rate` is the chance of success in [0, 1];
-    `marks` runs parallel to the unit's inputs and then its outputs, and is empty if nothing is marked.
+    `times` are the stretches of the video that show it, several if it was done in several goes, none if
+    nothing of them is known; `rate` is the chance of success in [0, 1]; `marks` runs parallel to the unit's
+    inputs and then its outputs, and is empty if nothing is marked.
     """
 
     sources: tuple[Source, ...] = ()
     composite: bool = False
-    start: float | None = None
-    end: float | None = None
+    times: tuple[Interval, ...] = ()
     agent: str = ""
     rate: float | None = None
     marks: tuple[Mark, ...] = ()
+
+    @property
+    def start(self) -> float | None:
+        """When it starts for the first time."""
+        return self.times[0].start if self.times else None
+
+    @property
+    def end(self) -> float | None:
+        """When it ends for the last time."""
+        return self.times[-1].end if self.times else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -265,6 +288,5 @@ class FunctionalUnit:
 
     @property
     def duration(self) -> int | None:
-        """How many seconds it took in the annotated video; None if that is not known, or not above 0."""
-        start, end = self.annotation.start, self.annotation.end
-        return None if start is None or end is None else max(0, round(end) - round(start)) or None
+        """How many seconds it took in the annotated video, all goes together; None if not known, or 0."""
+        return sum(interval.duration for interval in self.annotation.times) or None

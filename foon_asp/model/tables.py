@@ -14,7 +14,17 @@ import numpy as np
 import numpy.typing as npt
 
 from foon_asp.model.arrays import K, Mask, Numbers, Rows, distinct, numbers, rows
-from foon_asp.model.node import Annotation, FunctionalUnit, Mark, ObjectId, ObjectNode, Source, State, UnitId
+from foon_asp.model.node import (
+    Annotation,
+    FunctionalUnit,
+    Interval,
+    Mark,
+    ObjectId,
+    ObjectNode,
+    Source,
+    State,
+    UnitId,
+)
 
 T = TypeVar("T")
 
@@ -265,13 +275,15 @@ def _mixed(codes: Numbers) -> Keys:
 class Notes:
     """What annotators noted of each unit, as columns; a time or rate that is not known is NaN.
 
-    `agent` are numbers into `agents`. `in_marks` and `out_marks` are numbers into `marks` for each value of
-    the unit's inputs and outputs; the mark 0 says nothing. `sources` are the rows of the places that each
-    unit was read at: numbers into `file`, `line` and `video`, of which `file` and `video` are again numbers
-    into `files` and `videos`.
+    `times` are the rows of the intervals that each unit took: numbers into `start` and `end`. `agent` are
+    numbers into `agents`. `in_marks` and `out_marks` are numbers into `marks` for each value of the unit's
+    inputs and outputs; the mark 0 says nothing. `sources` are the rows of the places that each unit was read
+    at: numbers into `file`, `line` and `video`, of which `file` and `video` are again numbers into `files`
+    and `videos`.
     """
 
     composite: npt.NDArray[np.bool_]
+    times: Rows[UnitId, int]
     start: npt.NDArray[np.float64]
     end: npt.NDArray[np.float64]
     rate: npt.NDArray[np.float64]
@@ -291,6 +303,21 @@ class Notes:
         """Return one of the places that units were read at."""
         file, video = self.files[self.file[number]], self.videos[self.video[number]]
         return Source(file, int(self.line[number]), video)
+
+    def interval(self, number: int) -> Interval:
+        """Return one of the intervals that units took."""
+        return Interval(_known(self.start[number]), _known(self.end[number]))
+
+    @property
+    def durations(self) -> npt.NDArray[np.float64]:
+        """How many seconds each unit took, all its intervals together; 0 if that is not known."""
+        seconds = np.nan_to_num(np.maximum(0.0, np.round(self.end) - np.round(self.start)))
+        places = self.times.values
+        sums: npt.NDArray[np.float64]
+        sums = np.bincount(self.times.owners, weights=seconds[places], minlength=len(self.times)).astype(
+            float
+        )
+        return sums
 
 
 class UnitTable(_Table[UnitId, FunctionalUnit]):
@@ -337,8 +364,7 @@ class UnitTable(_Table[UnitId, FunctionalUnit]):
         return Annotation(
             tuple(map(notes.place, notes.sources[number])),
             bool(notes.composite[number]),
-            _known(notes.start[number]),
-            _known(notes.end[number]),
+            tuple(map(notes.interval, notes.times[number])),
             notes.agents[notes.agent[number]],
             _known(notes.rate[number]),
             self._marks(number),

@@ -54,8 +54,7 @@ def _inputs(world: World, units: Numbers) -> Amounts:
 
 
 def _time(world: World, units: Numbers) -> Amounts:
-    notes = world.foon.units.notes
-    return np.nan_to_num(np.maximum(0.0, np.round(notes.end[units]) - np.round(notes.start[units])))
+    return world.foon.units.notes.durations[units]
 
 
 def _cost(world: World, units: Numbers) -> Amounts:

@@ -13,7 +13,7 @@ from hypothesis import assume, event, given
 from hypothesis import strategies as st
 
 from foon_asp.io.wire import dumps
-from foon_asp.model.node import Annotation, ObjectNode, UnitId
+from foon_asp.model.node import Annotation, Interval, ObjectNode, UnitId
 from foon_asp.model.world import World
 from foon_asp.planning.planner import plan
 from foon_asp.planning.query import PlanQuery
@@ -41,7 +41,7 @@ def extremes(draw: st.DrawFn) -> Drawn:
     units = []
     for unit in where.foon.units:
         seconds = draw(st.sampled_from(SECONDS))
-        times = Annotation() if seconds is None else Annotation(start=0.0, end=float(seconds))
+        times = Annotation() if seconds is None else Annotation(times=(Interval(0.0, float(seconds)),))
         units.append(unit.__class__(unit.id, unit.motion, unit.inputs, unit.outputs, times))
     return World.of(with_units(where.foon, units), where.kitchen, strict=where.strict), goal
 

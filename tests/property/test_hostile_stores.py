@@ -47,7 +47,7 @@ def first(value: object) -> Callable[[list[Any]], list[Any]]:
 HOSTILE: list[tuple[str, str, object]] = [
     *((table, column, None) for table in SCHEMAS for column in SCHEMAS[table].names),
     *(("units", "rate", rate) for rate in (5.0, -1.0, math.inf)),
-    *(("units", column, time) for column in ("start", "end") for time in (-1.0, math.inf, 1e300)),
+    *(("times", column, time) for column in ("start", "end") for time in (-1.0, math.inf, 1e300)),
     *(("units", "motion", motion) for motion in ("", "a\nb", "a\0b", "Chop", " chop", "chop*", "a\tb")),
     *(("objects", "label", label) for label in ("", "a\nM\tb", "a\0b", "Egg", "egg ", "\x1b[31m")),
     *(("states", "name", name) for name in ("", "a\nb", "a [b]", "A")),

@@ -27,6 +27,9 @@ _ODD = [
     *("", " ", "//x", "// ", "# no", "# Source:\tv", "# Source:\tw", "# From:\tf:3", "#From: g", "text"),
     *("O", "O\t", "M", "M\t", "O\ta\tb\t00", "S\tcontains\t{b,a,}", "S hot", "S1\thot", "M\tx*\t0:05\t0:01"),
     *("\ufeffO\ta", "\x01", "O\x02\tb", "\x01\ufeff//", "M\tx\t1\t2\tr\tmuch", "S\tin\t[a]\t{b}", "/", "Moo"),
+    *("o\ta", "s hot", "m\tx", "\\\\", "ONone\tb\tNone", "MNULL\tx\tnone", "Snone\thot", "S\tno state"),
+    *("M\tx\t<0:01-0:02,0:04-0:05>\tr\t0.5", "M\tx\t<0:01,0:05>", "M\tx\t<0:01-0:05-", "M\tpick + place"),
+    *("S\tingredients inside\t{a}", "S\tin foil\t{b}"),
 ]
 _ENDS = st.sampled_from(["\n", "\n", "\n", "\r\n", "\r"])
 _ROWS = st.lists(st.tuples(st.sampled_from(_PLAIN) | st.sampled_from(_ODD), _ENDS), max_size=40)

@@ -7,9 +7,9 @@ import re
 from hypothesis import strategies as st
 
 from foon_asp.characters import without_control_characters
-from foon_asp.io.syntax import says_none
+from foon_asp.io.syntax import known_times, says_none
 from foon_asp.model.foon import Foon, FoonBuilder
-from foon_asp.model.node import Annotation, Mark, ObjectNode, Source, State
+from foon_asp.model.node import Annotation, Interval, Mark, ObjectNode, Source, State
 from foon_asp.model.notation import PLACES
 
 
@@ -46,6 +46,7 @@ STATE = st.builds(
 NODE = st.builds(ObjectNode.of, LABEL, st.lists(STATE, max_size=3))
 MOTION = LABEL.map(lambda text: text.rstrip("*").strip()).filter(lambda text: text and text[-1] != "*")
 TIME = st.none() | st.integers(0, 10**7).map(lambda count: count / 1000)
+TIMES = st.lists(st.builds(Interval, TIME, TIME), max_size=3).map(known_times)
 MARK = st.builds(Mark, st.sampled_from([None, True, False]), st.sampled_from(["", "", "!", "0", "29"]))
 SOURCE = st.builds(Source, LABELS, st.integers(0, 10**6), LABELS)
 
@@ -55,14 +56,14 @@ def foons(draw: st.DrawFn) -> Foon:
     builder = FoonBuilder()
     pool = draw(st.lists(NODE, min_size=1, max_size=4))
     for _ in range(draw(st.integers(1, 3))):
-        sides = st.lists(st.sampled_from(pool), max_size=3, unique=True)
-        inputs, outputs = draw(sides), draw(sides)
+        inputs, outputs = (
+            draw(st.lists(st.sampled_from(pool), min_size=least, max_size=3, unique=True)) for least in (1, 0)
+        )
         count = len(inputs) + len(outputs)
         note = Annotation(
             sources=tuple(draw(st.lists(SOURCE, min_size=1, max_size=2))),
             composite=draw(st.booleans()),
-            start=draw(TIME),
-            end=draw(TIME),
+            times=draw(TIMES),
             agent=draw(LABELS),
             rate=draw(st.none() | st.floats(0, 1)),
             marks=tuple(draw(st.just([]) | st.lists(MARK, min_size=count, max_size=count))),

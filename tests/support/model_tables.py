@@ -505,8 +505,8 @@ CRITERIA = (
     ),
     Case(
         "criteria/time.lp",
-        "seconds, where both ends are known and in order",
-        "use((1;2;3;4)). start(1,5). end(1,9). start(2,5). start(3,9). end(3,5). start(5,0). end(5,9).",
+        "seconds, of what is used and where they are known",
+        "use((1;2)). duration(1,4). duration(3,9).",
         "penalty/3",
         ('penalty("time",1,4)',),
     ),

@@ -11,12 +11,14 @@ from dataclasses import dataclass, field, replace
 from foon_asp.characters import one_line, without_control_characters
 from foon_asp.io.findings import Finding, oddity
 from foon_asp.io.lines import read_end, read_motion, read_object, read_origin, read_state, stray
-from foon_asp.io.syntax import check_sides, repeated
+from foon_asp.io.syntax import FROM_NOTHING, check_sides, repeated
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.node import Mark, ObjectNode, Source, State
 
-_OBJECT = re.compile(r"O\d*(?:[\t ]|\Z)")
-_MOTION = re.compile(r"M\d*(?:[\t ]|\Z)")
+_NO_ID = r"(?i:none|null|n/a)"
+_OBJECT = re.compile(rf"[Oo](?:\d*|{_NO_ID})(?:[\t ]|\Z)")
+_MOTION = re.compile(rf"[Mm](?:\d*|{_NO_ID})(?:[\t ]|\Z)")
+_END = re.compile(r"//|[/\\]+[\t ]*\Z")
 
 
 @dataclass
@@ -54,7 +56,7 @@ class PlainReader:
             rows.pop()
         closed = False
         for line, row in enumerate(rows, 1):
-            if row.startswith("//"):
+            if _END.match(row):
                 self._end(line, row, doubled=closed and self._unit.blank)
                 closed = True
                 self._unit = _Unit()
@@ -137,7 +139,9 @@ class PlainReader:
             label, note, odd = read_motion(row)
             for one in odd:
                 self._report(line, *one)
-            if label:
+            if label and not unit.inputs:
+                self._report(unit.line, *FROM_NOTHING)
+            elif label:
                 sources = unit.sources or [Source(self._file, unit.line, self._video)]
                 marks = tuple(each.mark for each in unit.inputs + unit.outputs)
                 inputs, outputs = (

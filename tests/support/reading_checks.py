@@ -19,7 +19,7 @@ from foon_asp.model.foon import Foon
 from foon_asp.model.node import Mark, ObjectNode, Source
 
 MENDED = OF_ROWS | {"blank-line", "byte-order-mark", "control-character", "unit-not-closed"}
-_OBJECT_OR_MOTION = re.compile(r"^([OM])\d*(?:[\t ]|$)", re.MULTILINE)
+_OBJECT_OR_MOTION = re.compile(r"^([OMom])(?:\d*|(?i:none|null|n/a))(?:[\t ]|$)", re.MULTILINE)
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u206f]")
 """What the reader leaves out: control characters and marks of writing direction."""
 
@@ -39,8 +39,8 @@ def count_units(text: str) -> int:
     text = _CONTROL.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))
     text = re.sub(r"^\ufeff+", "", text, flags=re.MULTILINE)
     count = 0
-    for chunk in re.split(r"^//.*$", text, flags=re.MULTILINE):
-        kinds = _OBJECT_OR_MOTION.findall(chunk)
+    for chunk in re.split(r"^(?://.*|[/\\]+[\t ]*)$", text, flags=re.MULTILINE):
+        kinds = "".join(_OBJECT_OR_MOTION.findall(chunk)).upper()
         if kinds:
             count += max(1, kinds.count("M"))
     return count

@@ -7,8 +7,12 @@ import json
 from pathlib import Path
 from typing import Any
 
+import pyarrow as pa
+import pyarrow.parquet as pq
+
 from foon_asp.io.open import open_files
 from foon_asp.io.store import write_store
+from foon_asp.io.store_tables import FIRST_SCHEMAS
 
 UNITS = (
     "//\nO\tegg\t1\nS\twhole\nO\tpan\t0\nS\ton\t[stove]\nM\tfry\t0:01\t0:05\trobot\t0.5\n"
@@ -22,6 +26,21 @@ def write_small_store(folder: Path) -> Path:
     (folder / "f.txt").write_text(UNITS)
     write_store(open_files(folder / "f.txt"), folder / "kb.foon", [folder / "f.txt"])
     return folder / "kb.foon"
+
+
+def as_first_version(folder: Path) -> None:
+    """Make a store of one whose units have one interval at most what the first version of stores was."""
+    units, times = (pq.read_table(folder / f"{name}.parquet") for name in ("units", "times"))
+    columns = {name: units[name].to_pylist() for name in units.column_names}
+    known = {row["unit"]: row for row in times.to_pylist()}
+    for name in ("start", "end"):
+        columns[name] = [known.get(unit, {}).get(name) for unit in columns["unit"]]
+    pq.write_table(pa.table(columns, schema=FIRST_SCHEMAS["units"]), folder / "units.parquet")
+    (folder / "times.parquet").unlink()
+    manifest = json.loads((folder / "manifest.json").read_text())
+    del manifest["tables"]["times"]
+    (folder / "manifest.json").write_text(json.dumps({**manifest, "version": 1}))
+    seal(folder)
 
 
 def seal(folder: Path) -> None:

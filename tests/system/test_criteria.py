@@ -9,7 +9,7 @@ import pytest
 from foon_asp.errors import QueryError
 from foon_asp.io.folder import Dataset
 from foon_asp.model.foon import FoonBuilder
-from foon_asp.model.node import Annotation
+from foon_asp.model.node import Annotation, Interval
 from foon_asp.model.world import World
 from foon_asp.query.constraints import Constraints
 from foon_asp.query.objective import CRITERIA
@@ -28,7 +28,7 @@ def timed(*seconds: tuple[str, str, str, float | None, float | None]) -> World:
             motion,
             [builder.object(node(before))],
             [builder.object(node(behind))],
-            Annotation(start=start, end=end),
+            Annotation(times=(Interval(start, end),)),
         )
     where = world([], "egg")
     return World.of(builder.build(), where.kitchen)

@@ -10,7 +10,7 @@ import pytest
 
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
-from foon_asp.model.node import Annotation
+from foon_asp.model.node import Annotation, Interval
 from foon_asp.model.world import World
 from foon_asp.planning.planner import plan
 from foon_asp.planning.query import PlanQuery
@@ -81,7 +81,7 @@ def timed(*rows: tuple[str, str, str, float]) -> World:
     builder = FoonBuilder()
     for motion, before, behind, seconds in rows:
         inputs, outputs = ([builder.object(node(text))] for text in (before, behind))
-        builder.unit(motion, inputs, outputs, Annotation(start=3e9, end=3e9 + seconds))
+        builder.unit(motion, inputs, outputs, Annotation(times=(Interval(3e9, 3e9 + seconds),)))
     return World.of(builder.build(), Kitchen((node("egg"),), default_rate=0.9))
 
 

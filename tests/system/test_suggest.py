@@ -14,7 +14,7 @@ from foon_asp.errors import QueryError
 from foon_asp.io.folder import Dataset
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
-from foon_asp.model.node import Annotation, Mark
+from foon_asp.model.node import Annotation, Interval, Mark
 from foon_asp.model.world import World
 from foon_asp.query.constraints import Constraints
 from foon_asp.query.query import Query
@@ -197,7 +197,7 @@ def test_dishes_of_unknown_time_are_not_the_quickest() -> None:
     builder = FoonBuilder()
     a, b, c = (builder.object(node(name)) for name in "abc")
     builder.unit("m", [a], [b], Annotation())
-    builder.unit("m", [a], [c], Annotation(start=10, end=25))
+    builder.unit("m", [a], [c], Annotation(times=(Interval(10, 25),)))
     where = World.of(builder.build(), Kitchen((node("a"),)))
     assert [(each.dish.label, each.costs.time) for each in suggest(where, Query(by="time")).dishes] == [
         ("c", 15)

@@ -8,7 +8,7 @@ from foon_asp.errors import QueryError
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.levels import LEVELS, at_level, project
-from foon_asp.model.node import Annotation, Mark, ObjectNode, Source, State
+from foon_asp.model.node import Annotation, Interval, Mark, ObjectNode, Source, State
 from foon_asp.model.units import Units
 from foon_asp.model.world import World
 from foon_asp.query.goals import find_goal
@@ -58,11 +58,15 @@ def test_annotations_and_sources_are_kept() -> None:
     builder = FoonBuilder()
     rice, pasta, salt = (builder.object(node(text)) for text in ("bowl{rice}", "bowl{pasta}", "salt"))
     marks = (Mark(False), Mark(True), Mark(goal="!"))
-    builder.unit("pour", [rice, pasta], [salt], Annotation((Source("a", 1),), start=3.0, marks=marks))
-    builder.unit("pour", [pasta], [salt], Annotation((Source("b", 7),), start=9.0))
+    builder.unit(
+        "pour", [rice, pasta], [salt], Annotation((Source("a", 1),), times=(Interval(3.0),), marks=marks)
+    )
+    builder.unit("pour", [pasta], [salt], Annotation((Source("b", 7),), times=(Interval(9.0),)))
     for level in (2, 1):
         (unit,) = at_level(builder.build(), level).units
-        expected = Annotation((Source("a", 1), Source("b", 7)), start=3.0, marks=(marks[0], marks[2]))
+        expected = Annotation(
+            (Source("a", 1), Source("b", 7)), times=(Interval(3.0),), marks=(marks[0], marks[2])
+        )
         assert unit.annotation == expected
 
 

@@ -12,7 +12,7 @@ from foon_asp.errors import InputError, QueryError
 from foon_asp.model.consumption import Effects
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
-from foon_asp.model.node import Annotation, UnitId
+from foon_asp.model.node import Annotation, Interval, UnitId
 from foon_asp.model.world import World
 from foon_asp.planning.pddl.names import DomainNames, read_names
 from foon_asp.planning.pddl.plan_file import read_plan
@@ -307,7 +307,7 @@ def test_the_same_twice_is_told_from_the_same_once() -> None:
 def test_durations_come_from_the_annotation() -> None:
     builder = FoonBuilder()
     a, b, c = (builder.object(small_foons.node(text)) for text in ("a", "b", "c"))
-    builder.unit("mix", [a], [b], Annotation(start=10.0, end=72.0))
+    builder.unit("mix", [a], [b], Annotation(times=(Interval(10.0, 70.0), Interval(80.0, 82.0))))
     builder.unit("fry", [b], [c], Annotation())
     where = World.of(builder.build(), Kitchen((small_foons.node("a"),)))
     written = exported(where, [small_foons.node("c")], durative=True)

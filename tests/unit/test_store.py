@@ -9,6 +9,7 @@ from pathlib import Path
 import duckdb
 import pandas as pd
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import pytest
 
@@ -18,8 +19,9 @@ from foon_asp.io.open import FoonFiles, open_files
 from foon_asp.io.store import open_store, write_store
 from foon_asp.io.store_tables import SCHEMAS, from_tables, to_tables
 from foon_asp.model.foon import FoonBuilder, merge
-from foon_asp.model.node import Annotation, Mark, ObjectNode, Source, State, UnitId
+from foon_asp.model.node import Annotation, Interval, Mark, ObjectNode, Source, State, UnitId
 from support.paths import BUILT_IN
+from support.stores import as_first_version, seal, write_small_store
 
 
 def test_a_store_says_what_its_files_say(store: Path) -> None:
@@ -37,15 +39,16 @@ def test_everything_that_can_be_noted_survives() -> None:
     ids = [builder.object(thing) for thing in things]
     marks = (Mark(True, "!"), Mark(False), Mark(), Mark(None, "17"))
     places = (Source("a.txt", 1, "one"), Source("", 0, ""))
-    builder.unit("mix", ids[:2], ids[1:], Annotation(places, True, 0.5, 2.25, "robot", 0.0, marks))
-    builder.unit("mix", ids[:1], [], Annotation((), end=7.0))
+    goes = (Interval(0.5, 2.25), Interval(), Interval(None, 9.0))
+    builder.unit("mix", ids[:2], ids[1:], Annotation(places, True, goes, "robot", 0.0, marks))
+    builder.unit("mix", ids[:1], [], Annotation((), times=(Interval(end=7.0),)))
     builder.unit("mix", ids[:2], ids[1:], Annotation((Source("b.txt", 9),)))
     foon = builder.build()
     again, _ = from_tables(to_tables(foon, []))
     assert list(again.objects) == things
     assert list(again.units) == list(foon.units)
     assert again.units[UnitId(0)].annotation == Annotation(
-        (*places, Source("b.txt", 9)), True, 0.5, 2.25, "robot", 0.0, marks
+        (*places, Source("b.txt", 9)), True, goes, "robot", 0.0, marks
     )
 
 
@@ -92,8 +95,28 @@ def test_tables_of_two_stores_do_not_mix(store: Path, tmp_path: Path) -> None:
 
 def test_another_version_is_refused(store: Path) -> None:
     manifest = json.loads((store / "manifest.json").read_text())
-    (store / "manifest.json").write_text(json.dumps(manifest | {"version": 2}))
-    with pytest.raises(InputError, match="version 2, and this program reads version 1; update foon-asp"):
+    (store / "manifest.json").write_text(json.dumps(manifest | {"version": 3}))
+    with pytest.raises(
+        InputError, match="version 3, and this program reads version 1 and 2; update foon-asp"
+    ):
+        open_store(store)
+
+
+def test_a_store_of_the_first_version_is_read(tmp_path: Path) -> None:
+    store = write_small_store(tmp_path)
+    known = open_store(store)
+    as_first_version(store)
+    assert open_store(store) == known
+    assert {unit.annotation.times for unit in known.foon.units} == {(), (Interval(1.0, 5.0),)}
+
+
+def test_a_store_in_which_something_is_made_from_nothing_asks_to_be_compiled_anew(tmp_path: Path) -> None:
+    store = write_small_store(tmp_path)
+    path = store / "inputs.parquet"
+    table = pq.read_table(path)
+    pq.write_table(table.filter(pc.field("unit") > 0), path)
+    seal(store)
+    with pytest.raises(InputError, match=r"a unit has no input; compile it again"):
         open_store(store)
 
 

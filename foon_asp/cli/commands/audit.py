@@ -113,7 +113,7 @@ def _mended(options: argparse.Namespace, path: Path) -> tuple[str, list[str]] | 
     if is_json(text):
         warn(options, f"{path}: only text files can be repaired")
         return None
-    reader = FoonReader()
+    reader = FoonReader(words=options.vocabulary)
     reader.read_data(data, path)
     mended, mends = mend_text(text, reader.finish().findings)
     rows = [f"{finding.file}:{finding.line}: {finding.code}: {finding.mend}" for finding in mends]

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import cut_off, sources, warn_of_losses
+from foon_asp.cli.inputs import cut_off, open_trees, sources
 from foon_asp.cli.messages import listing, note, tell
 from foon_asp.cli.output import Reply, check_targets
 from foon_asp.cli.parser import Parser
@@ -14,7 +14,6 @@ from foon_asp.errors import QueryError
 from foon_asp.io import atomic
 from foon_asp.io.formats import choose_format
 from foon_asp.io.object_wire import object_to_json
-from foon_asp.io.trees import TreeBuilder, trees_beside
 from foon_asp.io.wire import dumps
 from foon_asp.limits import ended
 from foon_asp.render.check import checks_text, mending_head
@@ -52,9 +51,8 @@ def run(options: argparse.Namespace) -> Reply:
     if options.mend and options.format == "text":
         options.format = "foon"
     known = sources(options).load()
-    trees = trees_beside(known.foon, [TreeBuilder().read_file(Path(name)) for name in options.trees])
+    trees = open_trees(options, known.foon)
     findings = [each for listing in trees.listings for each in listing.findings]
-    warn_of_losses(options, findings)
     query = CheckQuery(
         known.kitchen if options.kitchen is not None else None,
         known.kitchen.utensils,

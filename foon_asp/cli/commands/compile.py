@@ -6,10 +6,9 @@ import argparse
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import warn_of_losses
+from foon_asp.cli.inputs import open_foon
 from foon_asp.cli.output import Reply, check_targets, folder_to_write
 from foon_asp.cli.parser import Parser
-from foon_asp.io.folder import read_foon
 from foon_asp.io.store import check_target, write_store
 from foon_asp.words import counted
 
@@ -29,8 +28,7 @@ def run(options: argparse.Namespace) -> Reply:
     target = folder_to_write(options)
     check_target(target, sources)
     check_targets(options, target)
-    files = read_foon(sources, strict=options.strict_format)
-    warn_of_losses(options, files.findings)
+    files = open_foon(options, sources)
     manifest = write_store(files, target, sources)
     size = sum(table["bytes"] for table in manifest["tables"].values())
     units, objects = counted(len(files.foon.units), "unit"), counted(len(files.foon.objects), "object")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from foon_asp.cli import options as add
 from foon_asp.cli.commands.retrieve import tree_as_foon
-from foon_asp.cli.inputs import warn_of_losses
+from foon_asp.cli.inputs import open_trees
 from foon_asp.cli.messages import note
 from foon_asp.cli.output import Reply, check_targets
 from foon_asp.cli.parser import Parser
@@ -17,7 +17,6 @@ from foon_asp.io.costs import read_costs
 from foon_asp.io.formats import choose_format
 from foon_asp.io.kitchen import read_labels, read_rates, read_stock
 from foon_asp.io.transitions import read_orders
-from foon_asp.io.trees import TreeBuilder, trees_beside
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.relations import MATCHINGS
@@ -63,6 +62,7 @@ def configure(parser: Parser) -> None:
         default="loose",
         help="strict: on is not in; loose: what is on, under, … counts as in (default: loose)",
     )
+    add.vocabulary(parser.add_argument_group("reading"))
     add.constraints(parser)
     parser.add_argument(
         "--write-tree", metavar="FILE", help="write the tree as a FOON, text or JSON by its suffix"
@@ -92,8 +92,7 @@ def run(options: argparse.Namespace) -> Reply:
         match_relations=options.match_relations,
     )
     nothing = FoonBuilder().build()
-    trees = trees_beside(nothing, [TreeBuilder().read_file(Path(name)) for name in options.trees])
-    warn_of_losses(options, [each for listing in trees.listings for each in listing.findings])
+    trees = open_trees(options, nothing)
     found = consolidate_trees(trees, asked)
     if target is not None:
         _write_tree(options, target, found)

@@ -6,11 +6,10 @@ import argparse
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import warn_of_losses
+from foon_asp.cli.inputs import open_foon
 from foon_asp.cli.output import STDOUT, Reply
 from foon_asp.cli.parser import Parser
 from foon_asp.errors import QueryError
-from foon_asp.io.folder import read_foon
 from foon_asp.io.text import write_text
 from foon_asp.model.levels import at_level
 from foon_asp.words import counted
@@ -27,8 +26,7 @@ def run(options: argparse.Namespace) -> Reply:
     """Merge."""
     if options.output.lower().endswith(".json"):
         raise QueryError("a merged FOON is text; convert it to JSON afterwards: foon-asp convert")
-    files = read_foon([Path(name) for name in options.files], strict=options.strict_format)
-    warn_of_losses(options, files.findings)
+    files = open_foon(options, [Path(name) for name in options.files])
     foon = at_level(files.foon, options.level)
     place = "" if options.output == STDOUT else f"{options.output}: "
     summary = (
