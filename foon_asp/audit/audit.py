@@ -79,11 +79,6 @@ class _Search:
     def __init__(
         self, foon: Foon, kitchen: Kitchen, goals: tuple[ObjectNode, ...], findings: list[Finding]
     ) -> None:
-        if not kitchen.stated:
-            raw = {number for unit in foon.units for number in unit.inputs}
-            made = {number for unit in foon.units for number in unit.outputs if not foon.objects[number].bare}
-            objects = tuple(foon.objects[number] for number in sorted(raw - made))
-            kitchen = replace(kitchen, objects=objects)
         self._world = World.of(foon, kitchen)
         self._goals = [goal for goal in goals if foon.id_of(goal) is not None]
         self._findings = findings

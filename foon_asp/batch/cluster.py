@@ -267,6 +267,7 @@ def _moved(sources: Sources, folder: Path) -> Sources:
         foon=foon,
         kitchen=here.get("kitchen.json"),
         rates=here.get("motion.txt"),
+        costs=here.get("motion_cost.json"),
         utensils=here.get("utensils.txt"),
         goals=here.get("goal_nodes.json"),
         shown=tuple(zip(foon, sources.foon, strict=True)),

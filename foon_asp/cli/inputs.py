@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from foon_asp.cli.messages import shown, warn
+from foon_asp.cli.messages import note, shown, warn
 from foon_asp.cli.unknown_words import warn_of_unknown_words
 from foon_asp.errors import QueryError
 from foon_asp.io.findings import Finding, Severity
@@ -21,7 +21,7 @@ from foon_asp.model.world import World
 from foon_asp.query.goals import Named, find_object
 from foon_asp.resources import diets
 from foon_asp.values import said
-from foon_asp.words import cut
+from foon_asp.words import counted, cut
 
 _FILES = (
     *(
@@ -107,10 +107,18 @@ def open_data(options: argparse.Namespace) -> tuple[Dataset, World]:
     if len(world.strangers) > count:
         warn(options, f"and {len(world.strangers) - count} more objects that the FOON does not know")
     warn_of_unknown_words(options, dataset, world.full)
-    if not dataset.kitchen.objects:
+    if not dataset.kitchen.stated:
+        note_kitchen(options, world.full)
+    elif not world.kitchen.objects:
         warn(options, "the kitchen is empty, nothing is at hand; name one with --kitchen")
     _check_quotes(world, getattr(options, "goal", None))
     return dataset, world
+
+
+def note_kitchen(options: argparse.Namespace, world: World | None = None) -> None:
+    """Say what is at hand where no kitchen is named, and how much, if that is known."""
+    objects = "" if world is None else f", {counted(len(world.kitchen.objects), 'object')}"
+    note(options, f"no kitchen is named: at hand is what no unit makes{objects}; name one with --kitchen")
 
 
 def _check_quotes(world: World, goals: object) -> None:

@@ -135,8 +135,9 @@ class Sources:
     def of(cls, folder: str | Path | None = None, **files: Unpack[SourceKeys]) -> Sources:
         """Find the files of a data folder, the built-in one by default; those that are named replace its own.
 
-        A folder has `FOON.txt` (or `FOON.json`, or the store `FOON.foon`) or several subgraphs `*.txt`, and
-        may have `kitchen.json`, `motion.txt`, `motion_cost.json`, `utensils.txt` and `goal_nodes.json`.
+        The built-in kitchen is that of the built-in FOON alone: beside files that are named without one, all
+        is at hand that no unit makes. A folder has `FOON.txt` (or `FOON.json`, or the store `FOON.foon`) or
+        several subgraphs `*.txt`, and may have the files of `BESIDE`.
         Raises `InputError` if there is no FOON.
         """
         if unknown := files.keys() - SourceKeys.__annotations__.keys():
@@ -157,10 +158,14 @@ class Sources:
         def beside(named: str | Path | None, usual: str) -> str | None:
             return str(named) if named is not None else _there(root / usual)
 
+        kitchen = beside(files.get("kitchen"), "kitchen.json")
+        if folder is None and named and files.get("kitchen") is None:
+            # The built-in kitchen goes with the built-in FOON.
+            kitchen = None
         return cls(
             str(root),
             tuple(paths),
-            beside(files.get("kitchen"), "kitchen.json"),
+            kitchen,
             beside(files.get("rates"), "motion.txt"),
             beside(files.get("costs"), "motion_cost.json"),
             beside(files.get("utensils"), "utensils.txt"),

@@ -22,8 +22,9 @@ class Kitchen:
 
     `quantities`: how many there are of those objects of which there are not plenty, from 1. They matter
     where objects are used up; retrieval takes no notice of them. `stated`: the data say what is at hand, and
-    be it nothing. `costs`: what motions cost, by label, for the criterion of that name; `default_cost` is
-    that of all others.
+    be it nothing; else a world has what no unit of its FOON makes. `costs`: what motions cost, by label, for
+    the criterion of that name; `default_cost` is that of all others. `labels`: of each of these all objects
+    are at hand that no unit makes; a world lists them.
     """
 
     objects: tuple[ObjectNode, ...]
@@ -34,6 +35,7 @@ class Kitchen:
     stated: bool = True
     costs: Mapping[str, float] = field(default_factory=dict)
     default_cost: float | None = None
+    labels: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Raise `QueryError` for a value that says something else than the fields say, with what to pass."""
@@ -49,12 +51,16 @@ class Kitchen:
         costs = _mapping(self.costs, "costs", "motions with what they cost")
         for motion in costs:
             check_label(motion, "a motion")
+        labels = tuple(a_list(self.labels, "labels", "labels"))
+        for label in labels:
+            check_label(label, "an object")
         counts = _mapping(self.quantities, "quantities", "object nodes with their numbers")
         for node in counts:
             _check_node(node)
         values: dict[str, object] = {
             "objects": objects,
             "utensils": utensils,
+            "labels": labels,
             "rates": {motion: RATE.checked(rate, f"rates[{motion!r}]") for motion, rate in rates.items()},
             "costs": {motion: COST.checked(cost, f"costs[{motion!r}]") for motion, cost in costs.items()},
             "quantities": {

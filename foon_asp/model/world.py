@@ -21,6 +21,7 @@ from foon_asp.model.node import FunctionalUnit, ObjectId, ObjectNode, UnitId
 from foon_asp.model.reachability import Closure, forward
 from foon_asp.model.relations import Matching
 from foon_asp.model.similarity import Uses
+from foon_asp.model.stock import listed
 from foon_asp.model.units import Units, Vessels
 from foon_asp.numbers import QUANTITY
 from foon_asp.values import said
@@ -62,10 +63,13 @@ class World:
         """See a FOON from a kitchen, on a level of detail; with `strict` every input is needed.
 
         Where relations are matched loosely, the first object of the FOON stands for all that differ from it
-        only in how they are related to others, in the kitchen and among the goals, too.
+        only in how they are related to others, in the kitchen and among the goals, too. Where nothing says
+        what is at hand, it is what no unit makes.
         """
         units = Units(foon, kitchen.utensils, strict=strict, match_relations=match_relations)
-        stock = seen_as(kitchen, units.stand_in) if units.loose else kitchen
+        stock = listed(kitchen, units)
+        if units.loose:
+            stock = seen_as(stock, units.stand_in)
         return cls(units, stock, tuple(map(units.stand_in, goals)), images=foon.units.ids).on_level(level)
 
     def on_level(self, level: int) -> World:

@@ -224,7 +224,10 @@ class _Consolidator:
         self._kitchen, self.unpriced = self._priced()
         world = self._seen(samples.foon, self._kitchen)
         if not asked.kitchen.stated:
-            self._kitchen = replace(self._kitchen, objects=tuple(map(world.node, taken_from_kitchen(world))))
+            taken = tuple(map(world.node, taken_from_kitchen(world)))
+            self._kitchen = replace(self._kitchen, objects=taken, stated=True)
+        elif asked.kitchen.labels:
+            self._kitchen = replace(self._kitchen, objects=world.kitchen.objects, labels=())
         # All steps, also those that are dropped: what one of them makes is not at hand for that.
         self._world = self._seen(samples.foon, self._kitchen)
 
@@ -246,6 +249,7 @@ class _Consolidator:
         kitchen = replace(
             given,
             objects=tuple(dict.fromkeys(map(write.node, given.objects))),
+            labels=tuple(map(write.label, given.labels)),
             utensils=frozenset(map(write.label, given.utensils)) | vessels,
             costs=costs,
             default_cost=max(costs.values()) if costs and default is None else default,

@@ -9,7 +9,7 @@ from pathlib import Path
 from foon_asp.audit.audit import audit
 from foon_asp.audit.wire import audit_json
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import paths_to_read, sources
+from foon_asp.cli.inputs import note_kitchen, paths_to_read, sources
 from foon_asp.cli.messages import listing, note, warn
 from foon_asp.cli.output import STDOUT, Reply, check_targets
 from foon_asp.cli.parser import Parser
@@ -65,7 +65,10 @@ def run(options: argparse.Namespace) -> Reply:
     dataset = replace(read, goals=options.goals or read.goals).load()
     if fixing:
         _fix_all(options)
-    findings = [*dataset.findings, *unknown(dataset, dataset.world(level=FULL))]
+    world = dataset.world(level=FULL)
+    if not dataset.kitchen.stated:
+        note_kitchen(options, world)
+    findings = [*dataset.findings, *unknown(dataset, world)]
     report = audit(
         dataset.foon,
         dataset.kitchen,
