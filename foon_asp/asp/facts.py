@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import PurePath
 from typing import NamedTuple
@@ -60,19 +60,29 @@ class Piece(NamedTuple):
     cost: int = 0
 
 
+_KEPT = 1 << 16
+"""How many pieces a world keeps."""
+
 COST = MOST
 """Stands for a number in pieces; nothing that is paid is as large."""
 
 
-def pieces(problem: Problem, tariff: Tariff | None = None, *, details: bool) -> Iterator[Piece]:
-    """Yield the facts of a problem unit by unit, then goal by goal: all, or those of `read_facts`.
+def pieces(problem: Problem, tariff: Tariff | None = None, details: Collection[str] = ()) -> Iterator[Piece]:
+    """Yield the facts of a problem unit by unit, then goal by goal: those of `read_facts`, and some details.
 
-    With a tariff every unit must have a success rate above 0.
+    `details` are predicates of which facts are wanted, too. With a tariff every unit must have a success rate
+    above 0.
     """
     world = problem.world
+    kept, wanted = world.pieces, frozenset(details)
     for number in problem.units:
         limits.check()
-        piece = _detailed(world, number) if details else _read(world, number)
+        piece = kept.get((number, wanted))
+        if piece is None:
+            if len(kept) >= _KEPT:
+                kept.clear()
+            piece = _detailed(world, number, wanted) if wanted else _read(world, number)
+            kept[number, wanted] = piece
         if tariff is not None:
             cost = tariff.failure(world.kitchen.rate(world.foon.units[number]))
             piece = Piece(f"{piece.text} fails(u0,{COST}).", piece.ids, cost) if cost else piece
@@ -96,22 +106,59 @@ def _read_text(needs: tuple[int, ...], makes: tuple[int, ...]) -> str:
     return _reading("u0", [f"o{place}" for place in needs], [f"o{place}" for place in makes])
 
 
-def _detailed(world: World, number: UnitId) -> Piece:
-    """Return all that is known of a unit and of what it lists."""
+def _detailed(world: World, number: UnitId, details: Collection[str]) -> Piece:
+    """Return what a unit needs and makes besides the kitchen, and some details of what it lists.
+
+    The fewer details, the more units are alike. What it lists beside that is at hand, or as good as that: a
+    bare tool, or what only shows again what another input shows. It has a name of its own here, so that the
+    encodings read it as at hand. Labels that are no utensil's are left out, and so is what a vessel contains.
+    """
     unit = world.foon.units[number]
-    listed = dict.fromkeys([*unit.inputs, *unit.outputs])
-    names = {each: f"o{place}" for place, each in enumerate(listed, 1)}
-    inputs, outputs = ([names[each] for each in side] for side in (unit.inputs, unit.outputs))
-    parts = [_unit_facts("u0", unit, inputs, outputs)]
-    labels: set[str] = set()
-    for each, name in names.items():
-        node = world.node(each)
-        labels.update(node.named_labels)
-        parts.append(_object_facts(name, node))
-        if each in world.stock:
-            parts.append(f"kitchen({name}).")
-    parts += [f"utensil({quote(label)})." for label in sorted(world.kitchen.utensils & labels)]
-    return Piece(" ".join(parts), (number, *listed))
+    read = _read(world, number)
+    names = {each: f"o{place}" for place, each in enumerate(read.ids[1:], 1)}
+    sides = (("input", unit.inputs, world.units.needed), ("output", unit.outputs, world.units.made))
+    parts = [read.text]
+    own: dict[ObjectId, None] = {}
+    beside: dict[ObjectId, list[str]] = {}
+    for predicate, objects, reading in sides:
+        for each in objects if predicate in details else ():
+            if each in names and each in reading[number]:
+                own[each] = None
+                parts.append(f"{predicate}(u0,{names[each]}).")
+            else:
+                beside.setdefault(each, []).append(predicate)
+    about = _about_vessels if "utensil" in details else _about_nothing
+    parts += [fact for each in own for fact in about(world, each, names[each])]
+    # In an order of their own, so that units are alike that list the same in another one.
+    order = sorted(beside, key=lambda each: (beside[each], about(world, each, "")))
+    for place, each in enumerate(order, len(read.ids)):
+        parts += [f"kitchen(o{place}).", *(f"{predicate}(u0,o{place})." for predicate in beside[each])]
+        parts += about(world, each, f"o{place}")
+    if "motion" in details:
+        parts.append(f"motion(u0,{quote(unit.motion)}).")
+    if "duration" in details:
+        parts += _duration("u0", unit)
+    return Piece(" ".join(parts), (*read.ids, *order))
+
+
+def _about_nothing(world: World, number: ObjectId, name: str) -> list[str]:  # noqa: ARG001
+    return []
+
+
+def _about_vessels(world: World, number: ObjectId, name: str) -> list[str]:
+    """Return what an object has to do with utensils: it is one, and holds something, or is at one."""
+    utensils = world.kitchen.utensils
+    node = world.node(number)
+    facts = []
+    if node.label in utensils:
+        facts.append(f"label({name},{quote(node.label)}). utensil({quote(node.label)}).")
+        if node.contents:
+            facts.append(f'content({name},"contains","").')
+    for state in node.states:
+        if state.relatum in utensils:
+            relatum = quote(state.relatum)
+            facts.append(f"relation({name},{quote(state.name)},{relatum}). utensil({relatum}).")
+    return facts
 
 
 def finer_facts(problem: Problem) -> str:
@@ -323,11 +370,20 @@ def _unit_facts(number: Name, unit: FunctionalUnit, inputs: Iterable[Name], outp
     parts = [f"unit({number}). motion({number},{quote(unit.motion)})."]
     parts += [f"input({number},{each})." for each in inputs]
     parts += [f"output({number},{each})." for each in outputs]
+    return " ".join([*parts, *_times(number, unit), *_duration(number, unit)])
+
+
+def _times(number: Name, unit: FunctionalUnit) -> Iterator[str]:
+    """Yield when a unit starts and ends, as far as that is known."""
     times = {"start": unit.annotation.start, "end": unit.annotation.end}
     known = {name: round(seconds) for name, seconds in times.items() if seconds is not None}
     # A video of more than 68 years is moved to where clingo can count; it takes as long as before.
     beyond = max(0, *known.values(), MOST) - MOST
-    parts += [f"{name}({number},{max(0, seconds - beyond)})." for name, seconds in known.items()]
+    for name, seconds in known.items():
+        yield f"{name}({number},{max(0, seconds - beyond)})."
+
+
+def _duration(number: Name, unit: FunctionalUnit) -> Iterator[str]:
+    """Yield how long a unit takes, if that is known."""
     if unit.duration is not None:
-        parts.append(f"duration({number},{min(MOST, unit.duration)}).")
-    return " ".join(parts)
+        yield f"duration({number},{min(MOST, unit.duration)})."

@@ -7,7 +7,7 @@ one of several that are as good, does not depend on what was grounded before.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from foon_asp.asp.facts import pieces
 from foon_asp.asp.pieces import Block, Kind, blocks
@@ -21,15 +21,14 @@ def joined(
     constants: Mapping[str, str | int],
     criteria: str,
     tariff: Tariff | None = None,
-    *,
-    details: bool,
+    details: Collection[str] = (),
 ) -> str:
     """Return the ground program of a founded problem without constraints, in aspif.
 
     `criteria` are facts that are the same for all units. `tariff` says what chances cost, none of which is 0.
-    `details`: whether the encodings look at labels, states and the like.
+    `details` are the predicates at which the encodings look beside needs and makes.
     """
-    said = list(pieces(problem, tariff, details=details))
+    said = list(pieces(problem, tariff, details))
     values = {**constants, "labels_only": int(problem.world.labels_only)}
     kind = Kind(tuple(encodings), tuple(sorted(values.items())), criteria)
     grounded = blocks(kind, ["", *(piece.text for piece in said)])

@@ -47,9 +47,9 @@ def solver(
         encodings = [*encodings, "criteria/rounds.lp"]
     human = constraints.human_steps is not None or "criteria/human.lp" in encodings
     named = frozenset().union(*map(looked_at, encodings))
-    details = bool(named & _DETAILS)
+    details = named & _DETAILS
     if _in_pieces(problem, encodings, tariff):
-        text = joined(problem, encodings, constants, extra_facts, tariff, details=details)
+        text = joined(problem, encodings, constants, extra_facts, tariff, details)
         return open_program(Program((text,), {}, OPTIMISE, ground=True))
     if problem.whole or constraints.rules or details:
         text = facts(problem, tariff)

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -203,6 +203,11 @@ class World:
     @cached_property
     def remembered(self) -> dict[str, ObjectNode]:
         """What texts were found to mean here; `query.goals` keeps it."""
+        return {}
+
+    @cached_property
+    def pieces(self) -> dict[tuple[UnitId, frozenset[str]], Any]:
+        """What is said of units to a solver, by the details that are wanted; `asp.facts` keeps it."""
         return {}
 
     @cached_property

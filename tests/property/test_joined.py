@@ -12,7 +12,7 @@ from hypothesis import event, given
 from hypothesis import strategies as st
 
 from foon_asp.asp.control import Program
-from foon_asp.asp.encodings import encoding_files, encoding_text
+from foon_asp.asp.encodings import encoding_files, encoding_text, looked_at
 from foon_asp.asp.facts import facts, pieces, read_facts
 from foon_asp.asp.joined import joined
 from foon_asp.asp.pieces import Kept, Kind, blocks
@@ -73,7 +73,8 @@ def test_a_joined_program_has_the_models_that_clingo_grounds_at_once(
     tariff = success_tariff(problem) if "success" in names else None
     text = facts(problem, tariff) if details else read_facts(problem, tariff)
     at_once = Program((*map(encoding_text, encoding_files(encodings)), text, said(names)), constants)
-    text = joined(problem, encodings, constants, said(names), tariff, details=details)
+    looked = frozenset().union(*map(looked_at, encodings)) if details else ()
+    text = joined(problem, encodings, constants, said(names), tariff, looked)
     in_pieces = Program((text,), {}, ground=True)
     expected = models(at_once)
     event(f"{min(len(expected), 9)} models")
@@ -90,7 +91,13 @@ def test_a_piece_is_the_same_whatever_is_grounded_beside_it(where: World, mixer:
             (("founded", 1), ("strict", int(where.strict))),
             said([name]),
         )
-        texts = ["", *dict.fromkeys(piece.text for piece in pieces(problem, details=details))]
+        texts = [
+            "",
+            *dict.fromkeys(
+                piece.text
+                for piece in pieces(problem, details=looked_at(f"criteria/{name}.lp") if details else ())
+            ),
+        ]
         together = blocks(kind, texts, Kept(1000))
         mixer.shuffle(texts)
         kept = Kept(3)
