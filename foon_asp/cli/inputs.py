@@ -77,9 +77,12 @@ def sources(options: argparse.Namespace) -> Sources:
     )
 
 
-def open_foon(options: argparse.Namespace, paths: Sequence[Path]) -> FoonFiles:
-    """Read FOON files as the options say, and warn of what of them is lost."""
-    files = read_foon(paths, options.strict_format, options.vocabulary)
+def open_foon(options: argparse.Namespace, paths: Sequence[Path], *, repeats: bool = False) -> FoonFiles:
+    """Read FOON files as the options say, and warn of what of them is lost.
+
+    With `repeats` a unit is kept as often as it stands there.
+    """
+    files = read_foon(paths, options.strict_format, options.vocabulary, repeats=repeats)
     warn_of_losses(options, files.findings)
     return files
 
@@ -96,10 +99,16 @@ def open_world(options: argparse.Namespace) -> World:
     return open_data(options)[1]
 
 
-def open_data(options: argparse.Namespace) -> tuple[Dataset, World]:
-    """Open the data and the world that they are, and warn of what cannot be meant."""
+def load_data(options: argparse.Namespace) -> Dataset:
+    """Read the data, and warn of what of them is lost."""
     dataset = sources(options).load()
     warn_of_losses(options, dataset.findings)
+    return dataset
+
+
+def open_data(options: argparse.Namespace) -> tuple[Dataset, World]:
+    """Open the data and the world that they are, and warn of what cannot be meant."""
+    dataset = load_data(options)
     world = dataset.world()
     count = shown(options, len(world.strangers))
     for node in world.strangers[:count]:

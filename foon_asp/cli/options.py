@@ -126,6 +126,10 @@ def _level(group: argparse._ActionsContainer) -> None:
     )
 
 
+OR_MARKED = "; without one, what the FOON marks as its goal"
+"""What to say of a goal that may be left out."""
+
+
 def goal(parser: Parser, nargs: str | None = None, note: str = "") -> None:
     """Add one goal, or as many as `nargs` says."""
     parser.add_argument("goal", nargs=nargs, metavar="GOAL", help=_GOAL + note)

@@ -8,15 +8,33 @@ from pathlib import Path
 from typing import Any
 
 from foon_asp.characters import one_line
+from foon_asp.cli.inputs import named_goals
+from foon_asp.cli.messages import note
 from foon_asp.errors import InputError, QueryError
 from foon_asp.io.files import exists
 from foon_asp.io.kitchen import read_labels
+from foon_asp.model.world import World
 from foon_asp.query.constraints import KINDS, Constraints, Form, read_diet
 from foon_asp.query.goals import Named
 from foon_asp.query.query import Query
 from foon_asp.query.substitution import SOURCES, Given, read_substitutes
 from foon_asp.resources import diets
 from foon_asp.values import said
+from foon_asp.words import shortened
+
+
+def asked_goals(options: argparse.Namespace, world: World, advice: str) -> list[Named]:
+    """Return the goals that are named, or else those that the FOON marks.
+
+    Raises `QueryError` with an advice if there are none.
+    """
+    if named := named_goals(options):
+        return named
+    marked: list[Named] = [*world.foon.marked_goals()]
+    if not marked:
+        raise QueryError(f"{advice}; no object of the FOON is marked as its goal")
+    note(options, f"asked for what the FOON marks: {shortened(list(map(str, marked)))}")
+    return marked
 
 
 def question(options: argparse.Namespace, *goals: Named) -> Query:

@@ -58,14 +58,19 @@ class Dataset:
 
 
 def read_foon(
-    paths: Sequence[Path], strict: bool = False, vocabulary: VocabularyName = "current"
+    paths: Sequence[Path],
+    strict: bool = False,
+    vocabulary: VocabularyName = "current",
+    *,
+    repeats: bool = False,
 ) -> FoonFiles:
     """Read FOON files, text, JSON or compiled stores, and merge them, duplicate units removed.
 
     With `strict` anything odd is an error. With the vocabulary "as-written" words of older text files stay as
-    they are. Raises `InputError` if a file cannot be read as a FOON or no functional unit is in any of them.
+    they are. With `repeats` a unit is kept as often as it stands there. Raises `InputError` if a file cannot
+    be read as a FOON or no functional unit is in any of them.
     """
-    files = open_files(*paths, strict=strict, words=vocabulary)
+    files = open_files(*paths, strict=strict, words=vocabulary, repeats=repeats)
     if not files.foon.units:
         problem = "an empty FOON: no functional unit"
         for finding in files.findings:
@@ -159,9 +164,11 @@ class Sources:
             return str(named) if named is not None else _there(root / usual)
 
         kitchen = beside(files.get("kitchen"), "kitchen.json")
-        if folder is None and named and files.get("kitchen") is None:
-            # The built-in kitchen goes with the built-in FOON.
-            kitchen = None
+        goals = beside(files.get("goals"), "goal_nodes.json")
+        if folder is None and named:
+            # The built-in kitchen and its goals go with the built-in FOON.
+            kitchen = None if files.get("kitchen") is None else kitchen
+            goals = None if files.get("goals") is None else goals
         return cls(
             str(root),
             tuple(paths),
@@ -169,7 +176,7 @@ class Sources:
             beside(files.get("rates"), "motion.txt"),
             beside(files.get("costs"), "motion_cost.json"),
             beside(files.get("utensils"), "utensils.txt"),
-            beside(files.get("goals"), "goal_nodes.json"),
+            goals,
             files.get("default_rate"),
             files.get("default_cost"),
             files.get("strict_format", False),
@@ -228,7 +235,7 @@ class Sources:
         return Dataset(
             foon=_renamed_files(files.foon, dict(self.shown)) if self.shown else files.foon,
             kitchen=kitchen,
-            goals=tuple(read_objects(Path(self.goals))) if self.goals else (),
+            goals=tuple(read_objects(Path(self.goals)) if self.goals else files.foon.marked_goals()),
             findings=files.findings,
             units_read=files.units_read,
             sources=self,

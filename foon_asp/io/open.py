@@ -145,11 +145,13 @@ class FoonReader:
         )
 
 
-def open_files(*paths: Path, strict: bool = False, words: VocabularyName = "current") -> FoonFiles:
+def open_files(
+    *paths: Path, strict: bool = False, words: VocabularyName = "current", repeats: bool = False
+) -> FoonFiles:
     """Read FOON files, text, JSON or stores, and merge them; a store alone is opened as it is.
 
-    With `strict` anything odd is an error. `words` says how words of older text files are read. Raises
-    `InputError` if one cannot be read as a FOON.
+    With `strict` anything odd is an error. `words` says how words of older text files are read. A unit is
+    kept as often as it stands there with `repeats`. Raises `InputError` if one cannot be read as a FOON.
     """
     if len(paths) == 1 and is_store(paths[0]):
         # pyarrow takes a while to load, and most questions are about files.
@@ -159,7 +161,7 @@ def open_files(*paths: Path, strict: bool = False, words: VocabularyName = "curr
         if strict:
             _refuse_odd(files.findings, paths[0])
         return files
-    reader = FoonReader(strict=strict, words=words)
+    reader = FoonReader(strict=strict, builder=FoonBuilder(repeats=repeats), words=words)
     for path in paths:
         reader.read(path)
     return reader.finish()

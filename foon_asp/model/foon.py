@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from foon_asp.errors import QueryError
-from foon_asp.model.arrays import K, Numbers, Rows, V
+from foon_asp.model.arrays import K, Mask, Numbers, Rows, V
 from foon_asp.model.node import Annotation, FunctionalUnit, Mark, ObjectId, ObjectNode, UnitId
 from foon_asp.model.numbering import Numbering, RowNumbering, with_set
 from foon_asp.model.tables import Notes, ObjectTable, StateTable, UnitTable
@@ -62,14 +62,19 @@ class Foon:
         return self.labels | self.objects.kinds.named
 
     def marked_goals(self) -> list[ObjectNode]:
-        """Return the outputs that the annotators marked as intended goals, in file order."""
-        found: dict[ObjectNode, None] = {}
-        for unit in self.units:
-            ports = unit.inputs + unit.outputs
-            for port, mark in zip(ports, unit.annotation.marks, strict=False):
-                if mark.goal:
-                    found[self.objects[port]] = None
-        return list(found)
+        """Return the objects that the annotators marked as intended goals, in file order."""
+        notes = self.units.notes
+        is_goal = np.array([bool(mark.goal) for mark in notes.marks], np.bool_)
+        found: list[tuple[UnitId, int, ObjectId]] = []
+        for side, (ports, codes) in enumerate(
+            ((self.units.inputs, notes.in_marks), (self.units.outputs, notes.out_marks))
+        ):
+            chosen = np.flatnonzero(is_goal[codes])
+            owners, values = ports.owners[chosen].tolist(), ports.values[chosen].tolist()
+            found += [(unit, side, port) for unit, port in zip(owners, values, strict=True)]
+        # Sorting keeps the order of the ports of one side.
+        ports_in_order = [port for _, _, port in sorted(found, key=lambda each: each[:2])]
+        return [self.objects[port] for port in dict.fromkeys(ports_in_order)]
 
 
 _NO_MARK = Mark()
@@ -124,10 +129,12 @@ class FoonBuilder:
 
     Objects and units are given one by one (`object`, `unit`), or many at once in columns (`objects`,
     `units`), by the numbers that words, states and marks have here. What of these no object and no unit has
-    is left out in the end.
+    is left out in the end. With `repeats` a unit that is there already is added once more, as in a list of
+    steps; without, it is one unit with a further place.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, repeats: bool = False) -> None:
+        self._repeats = repeats
         self.labels: Numbering[str] = Numbering()
         self.words: Numbering[str] = Numbering()
         self.motions: Numbering[str] = Numbering()
@@ -176,7 +183,10 @@ class FoonBuilder:
         self.read += 1
         number = UnitId(len(self._motion))
         label = self.motions[motion]
-        known = UnitId(self._units.number(with_set(label, (*inputs, *(~output for output in outputs)))))
+        known = number
+        if not self._repeats:
+            row = with_set(label, (*inputs, *(~output for output in outputs)))
+            known = UnitId(self._units.number(row))
         for source in note.sources:
             self._places.add(known, self.files[source.file], source.line, self.videos[source.video])
         if known != number:
@@ -203,9 +213,7 @@ class FoonBuilder:
     def units(self, units: UnitColumns) -> list[Repeat]:
         """Add many units. Return those that were there before, in order."""
         self.read += len(units.motion)
-        outputs: Rows[int, ObjectId] = Rows(units.outputs.offsets, ~units.outputs.values)
-        ports: Rows[int, ObjectId] = Rows.joined(units.inputs, outputs)
-        found, new = self._units.numbers(Rows.headed((units.motion,), ports.as_sets()))
+        found, new = self._numbers_of(units)
         place, file, line, video = units.places
         self._places.extend(found[place], file, line, video)
         for side, marks, rows, column in (
@@ -227,6 +235,15 @@ class FoonBuilder:
             self._repeat(place, UnitId(int(found[place])), float(units.rate[place]))
             for place in np.flatnonzero(~new).tolist()
         ]
+
+    def _numbers_of(self, units: UnitColumns) -> tuple[Numbers, Mask]:
+        """Return the ids that units have or get, and which of them are new."""
+        if self._repeats:
+            begin, count = len(self._motion), len(units.motion)
+            return np.arange(begin, begin + count, dtype=np.int32), np.ones(count, np.bool_)
+        outputs: Rows[int, ObjectId] = Rows(units.outputs.offsets, ~units.outputs.values)
+        ports: Rows[int, ObjectId] = Rows.joined(units.inputs, outputs)
+        return self._units.numbers(Rows.headed((units.motion,), ports.as_sets()))
 
     def _repeat(self, place: int, unit: UnitId, rate: float) -> Repeat:
         added = self._again(unit, None if math.isnan(rate) else rate)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
+import foon_asp as fa
+from foon_asp.io.findings import Severity
 from foon_asp.io.trees import TreeBuilder
 from support.cli import run
 from support.paths import PUBLIC_DATA
-from support.reading_checks import read
+from support.reading_checks import check_storing, check_writing, notes, read
 
 CASES = PUBLIC_DATA.parent / "cases"
 pytestmark = pytest.mark.skipif(not CASES.exists(), reason=f"no {CASES}")
@@ -29,12 +33,51 @@ WATER = {"cup {water}", "bowl [empty]", "cup [empty]", "bowl {water} on [table]"
         ("nested-lists.json", WATER, "duplicate-unit"),
         ("json-states-contains.json", WATER, "state-without-brackets"),
         ("empty.json", set(), "no-units"),
+        ("unit-without-input-nodes.json", set(), "unit-without-inputs"),
+        ("none-ids.txt", {"filter [unused]", "filter in [machine]"}, "word-for-none"),
+        ("two-motions.txt", {"a [x]", "a [y]"}, "two-motions"),
+        ("lower.txt", {"onion [whole]", "onion [chopped]"}, "lower-case"),
+        ("space-dialect.txt", {"onion [whole]", "knife", "onion [ring shaped]"}, "missing-tab"),
+        ("backslash-ends.txt", {"onion [whole]", "onion [chopped]", "bowl", "bowl [full]"}, "other-end"),
     ],
 )
 def test_what_is_read_and_found(name: str, objects: set[str], code: str) -> None:
     files = read((CASES / name).read_bytes(), name)
     assert set(map(str, files.foon.objects)) == objects
     assert code in {finding.code for finding in files.findings}
+
+
+@pytest.mark.parametrize(
+    ("name", "times", "found"),
+    [
+        ("comma-times.txt", [((22, 24),)], []),
+        ("two-intervals.txt", [((114, 117), (118, 121))], []),
+        ("times-ragged.txt", [((114, 117),), (), ((5, 9),)], [4, 10, 16]),
+    ],
+)
+def test_times(name: str, times: list[Any], found: list[int], capsys: pytest.CaptureFixture[str]) -> None:
+    """They are read, told where they are odd, kept by both formats that have times, and added up."""
+    files = read((CASES / name).read_bytes(), name)
+    assert [[(each.start, each.end) for each in unit.annotation.times] for unit in files.foon.units] == [
+        list(each) for each in times
+    ]
+    assert sorted({finding.line for finding in files.findings if finding.severity > Severity.NOTE}) == found
+    durations = [sum(end - start for start, end in each) for each in times]
+    assert [unit.duration or 0 for unit in files.foon.units] == durations
+    assert files.foon.units.notes.durations.tolist() == durations
+    check_writing(files.foon)
+    check_storing(files)
+    _, out, _ = run(capsys, "convert", CASES / name, "-o", "-", "--to", "api-json")
+    assert notes(read(out).foon) == notes(files.foon)
+
+
+def test_what_is_marked_is_the_goal() -> None:
+    assert list(map(str, fa.load(foon=[CASES / "marked-goal.txt"]).goals)) == ["a [y]"]
+
+
+def test_a_tree_is_converted_with_what_it_repeats(capsys: pytest.CaptureFixture[str]) -> None:
+    tree = CASES / "repeated-step.txt"
+    assert run(capsys, "convert", tree, "-o", "-", "--to", "text")[:2] == (0, tree.read_text())
 
 
 @pytest.mark.parametrize(("name", "trees"), [("nested-lists.json", 2), ("units.jsonl", 1), ("empty.json", 1)])

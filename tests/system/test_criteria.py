@@ -50,6 +50,22 @@ def test_time_is_the_sum_of_what_the_videos_show() -> None:
     ).tree
 
 
+def test_several_goes_take_the_sum_of_their_times(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """For the search, for the replay and for plans; what passed in between does not count."""
+    foon, kitchen = tmp_path / "foon.txt", tmp_path / "kitchen.json"
+    foon.write_text(
+        "O\tegg\nM\tpoach\t<0:00-0:40,1:40-2:10>\nO\tegg\nS\thot\n//\n"
+        "O\tegg\nM\tfry\t0:00\t1:11\nO\tegg\nS\thot\n//\n"
+    )
+    kitchen.write_text('[{"label": "egg"}]')
+    for command in ("retrieve", "plan"):
+        found = run_json(capsys, command, "egg [hot]", "--foon", foon, "--kitchen", kitchen, "--by", "time")
+        assert "poach" in str(found)
+        assert "fry" not in str(found)
+    _, out, _ = run(capsys, "facts", "--foon", foon, "--kitchen", kitchen)
+    assert "start(0,0). end(0,130). duration(0,70)." in out
+
+
 def test_criteria_that_the_data_know_nothing_of_are_refused() -> None:
     where = world(["egg -cut-> dish"], "egg")
     with pytest.raises(QueryError, match="no unit that can matter for this goal has a time"):

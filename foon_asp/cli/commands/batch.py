@@ -15,7 +15,7 @@ from foon_asp.batch.query_file import Chunk, QueryFile
 from foon_asp.batch.rows import Rows
 from foon_asp.batch.run import RunOptions, chunk_size, files_of, run_batch
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import note_kitchen, paths_to_read, sources
+from foon_asp.cli.inputs import note_kitchen, open_foon, paths_to_read, sources
 from foon_asp.cli.messages import tell
 from foon_asp.cli.output import STDOUT, Reply, file_to_write
 from foon_asp.cli.parser import Parser, Renamed
@@ -69,6 +69,8 @@ def run(options: argparse.Namespace) -> Reply:
     data = sources(options)
     if data.kitchen is None:
         note_kitchen(options)
+    # Those who answer cannot tell.
+    open_foon(options, [Path(path) for path in data.foon])
     settings = Settings(options.time_limit, options.memory_limit, options.timings)
     jobs = min(options.jobs or cores(), queries.queries)
 

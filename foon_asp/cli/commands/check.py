@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import cut_off, open_trees, sources
+from foon_asp.cli.inputs import cut_off, load_data, open_trees
 from foon_asp.cli.messages import listing, note, tell
 from foon_asp.cli.output import Reply, check_targets
 from foon_asp.cli.parser import Parser
@@ -50,7 +50,7 @@ def run(options: argparse.Namespace) -> Reply:
         check_targets(options, target)
     if options.mend and options.format == "text":
         options.format = "foon"
-    known = sources(options).load()
+    known = load_data(options)
     trees = open_trees(options, known.foon)
     findings = [each for listing in trees.listings for each in listing.findings]
     query = CheckQuery(

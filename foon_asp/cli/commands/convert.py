@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import cut_off, warn_of_losses
+from foon_asp.cli.inputs import cut_off, open_foon
 from foon_asp.cli.messages import note, warn
 from foon_asp.cli.output import STDOUT, Reply, check_targets, write
 from foon_asp.cli.parser import Parser
 from foon_asp.errors import QueryError
 from foon_asp.io.files import is_folder
-from foon_asp.io.folder import read_foon
 from foon_asp.io.formats import FORMATS, check_suffix, choose_format
 from foon_asp.words import counted
 
@@ -21,7 +20,9 @@ from foon_asp.words import counted
 def configure(parser: Parser) -> None:
     """Add the options."""
     add.reading(parser)
-    parser.add_argument("files", nargs="+", metavar="IN", help="FOON files; several are merged")
+    parser.add_argument(
+        "files", nargs="+", metavar="IN", help="FOON files; several are merged, one keeps what it repeats"
+    )
     parser.add_argument(
         "--to", choices=list(FORMATS), help="format (default: the fuller one with the suffix of OUT)"
     )
@@ -50,9 +51,11 @@ def run(options: argparse.Namespace) -> Reply:
 
 
 def _convert(options: argparse.Namespace, sources: Sequence[Path], target: str) -> bool:
-    """Write some files as one, say what the format cannot say of them, and return whether none is cut off."""
-    files = read_foon(sources, strict=options.strict_format)
-    warn_of_losses(options, files.findings)
+    """Write some files as one, say what is lost of them, and return whether none is cut off.
+
+    One file keeps its order and what it repeats, for it may be a task tree; several are merged.
+    """
+    files = open_foon(options, sources, repeats=len(sources) == 1)
     form = choose_format(files.foon, Path(target), options.to)
     write(target, [form.write(files.foon)])
     poorer = sum(form.loses(unit) for unit in files.foon.units)
@@ -60,5 +63,6 @@ def _convert(options: argparse.Namespace, sources: Sequence[Path], target: str) 
         what = "goal marks" if form.name == "api-json" else "flags, marks, times, agents and rates"
         lost = counted(poorer, "unit")
         warn(options, f"{target}: the format {form.name!r} has no {what}; lost of {lost}")
-    note(options, f"{target}: {counted(len(files.foon.units), 'unit')} ({form.name})")
+    again = f", {counted(files.foon.duplicates, 'duplicate')} removed" if files.foon.duplicates else ""
+    note(options, f"{target}: {counted(len(files.foon.units), 'unit')} ({form.name}){again}")
     return not cut_off(files.findings)

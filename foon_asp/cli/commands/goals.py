@@ -1,4 +1,4 @@
-"""`foon-asp goals`: the goals of the data folder."""
+"""`foon-asp goals`: the goals of the data folder, or what the FOON marks as such."""
 
 from __future__ import annotations
 

@@ -6,11 +6,10 @@ import argparse
 
 from foon_asp.cli import options as add
 from foon_asp.cli.commands.retrieve import tree_as_foon
-from foon_asp.cli.inputs import named_goals, open_world
+from foon_asp.cli.inputs import open_world
 from foon_asp.cli.output import Reply
 from foon_asp.cli.parser import Parser
-from foon_asp.cli.question import question
-from foon_asp.errors import QueryError
+from foon_asp.cli.question import asked_goals, question
 from foon_asp.render.menu import menu_text
 from foon_asp.retrieval.menu import plan_menu
 from foon_asp.retrieval.wire import menu_json
@@ -19,7 +18,7 @@ from foon_asp.retrieval.wire import menu_json
 def configure(parser: Parser) -> None:
     """Add the options."""
     add.world(parser)
-    add.goal(parser, "*")
+    add.goal(parser, "*", add.OR_MARKED)
     add.goals_file(parser)
     add.criteria(parser)
     parser.add_argument("--leave-out", action="store_true", help="leave out goals that cannot be made")
@@ -30,11 +29,11 @@ def configure(parser: Parser) -> None:
 
 def run(options: argparse.Namespace) -> Reply:
     """Plan a menu."""
-    goals = named_goals(options)
-    query = question(options, *goals)
-    if not goals:
-        raise QueryError("name the dishes: foon-asp menu GOAL GOAL…, or a file of them with --goals")
-    menu = plan_menu(open_world(options), query, leave_out=options.leave_out)
+    query = question(options)
+    world = open_world(options)
+    advice = "name the dishes: foon-asp menu GOAL GOAL…, or a file of them with --goals"
+    goals = asked_goals(options, world, advice)
+    menu = plan_menu(world, query.replace(goals=goals), leave_out=options.leave_out)
     return Reply(
         lambda: menu_text(menu),
         lambda: menu_json(menu),

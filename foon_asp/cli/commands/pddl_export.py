@@ -5,13 +5,15 @@ from __future__ import annotations
 import argparse
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import find_goals, open_world
+from foon_asp.cli.inputs import open_world
 from foon_asp.cli.output import Reply, check_targets, folder_to_write
 from foon_asp.cli.parser import Parser
+from foon_asp.cli.question import asked_goals
 from foon_asp.model.consumption import Effects
 from foon_asp.planning.pddl.styles import document
 from foon_asp.planning.pddl.task import planning_task
 from foon_asp.planning.pddl.write import FILES, export
+from foon_asp.query.goals import find_object
 from foon_asp.query.objective import Criterion
 from foon_asp.query.problem import Problem
 from foon_asp.words import counted
@@ -20,7 +22,7 @@ from foon_asp.words import counted
 def configure(parser: Parser) -> None:
     """Add the options."""
     add.world(parser)
-    add.goal(parser, "+")
+    add.goal(parser, "*", add.OR_MARKED)
     parser.add_argument(
         "--style",
         choices=("objects", "lifted"),
@@ -41,7 +43,8 @@ def run(options: argparse.Namespace) -> Reply:
     folder = folder_to_write(options)
     check_targets(options, *(folder / name for name in FILES))
     world = open_world(options)
-    goals = tuple(map(world.id_of, find_goals(options, world)))
+    named = asked_goals(options, world, "name a GOAL: foon-asp pddl export GOAL…")
+    goals = tuple(world.id_of(find_object(world, goal)) for goal in named)
     problem = Problem(world, goals, whole=options.whole)
     criterion = None if options.by is None else Criterion.parse(options.by)
     task = planning_task(problem, Effects(world, options.semantics), criterion)

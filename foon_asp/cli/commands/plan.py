@@ -11,6 +11,7 @@ from foon_asp.cli.inputs import open_world
 from foon_asp.cli.messages import tell
 from foon_asp.cli.output import Reply
 from foon_asp.cli.parser import Parser
+from foon_asp.cli.question import asked_goals
 from foon_asp.io.text import write_text
 from foon_asp.planning.answer import PlanAnswer
 from foon_asp.planning.plan import Plan
@@ -24,7 +25,7 @@ from foon_asp.render.plan import answer_text
 def configure(parser: Parser) -> None:
     """Add the options."""
     add.world(parser)
-    add.goal(parser, "+")
+    add.goal(parser, "*", add.OR_MARKED)
     parser.add_argument(
         "--engine", default="clingo", metavar="NAME", help="see foon-asp engines (default: clingo)"
     )
@@ -40,9 +41,8 @@ def configure(parser: Parser) -> None:
 def run(options: argparse.Namespace) -> Reply:
     """Plan."""
     world = open_world(options)
-    query = Query(
-        *options.goal, by=options.by, time_limit=options.time_limit, memory_limit=options.memory_limit
-    )
+    goals = asked_goals(options, world, "name a GOAL: foon-asp plan GOAL…")
+    query = Query(*goals, by=options.by, time_limit=options.time_limit, memory_limit=options.memory_limit)
     asked = PlanQuery(query, options.engine, options.semantics, options.max_steps)
     answer = plan(world, asked, _progress(options))
     return Reply(

@@ -9,11 +9,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import named_goals, open_world
+from foon_asp.cli.inputs import open_world
 from foon_asp.cli.messages import note, tell
 from foon_asp.cli.output import Reply
 from foon_asp.cli.parser import Parser, Renamed
-from foon_asp.cli.question import question
+from foon_asp.cli.question import asked_goals, question
 from foon_asp.errors import QueryError
 from foon_asp.model.world import World
 from foon_asp.query.query import Query
@@ -30,10 +30,13 @@ _LONG = 0.3
 """Seconds after which a person wants to know how far it is."""
 
 
+_ADVICE = "name one GOAL, or a file of them with --goals"
+
+
 def configure(parser: Parser) -> None:
     """Add the options."""
     add.world(parser)
-    add.goal(parser, "?")
+    add.goal(parser, "?", add.OR_MARKED)
     add.goals_file(parser)
     add.method(parser)
     add.criteria(parser, "; success or inputs alone for --method greedy")
@@ -70,8 +73,8 @@ def configure(parser: Parser) -> None:
 
 def run(options: argparse.Namespace) -> Reply:
     """Retrieve task trees."""
-    if (options.goal is None) == (options.goals is None):
-        raise QueryError("name one GOAL, or a file of them with --goals")
+    if options.goal is not None and options.goals is not None:
+        raise QueryError(_ADVICE)
     query = question(options)
     if options.trace and options.method != "ids":
         raise QueryError("--trace shows the search of --method ids")
@@ -80,7 +83,8 @@ def run(options: argparse.Namespace) -> Reply:
     if _several(options):
         _check_several(options)
     world = open_world(options)
-    answers = _Answers(options, world, [query.replace(goals=[goal]) for goal in named_goals(options)])
+    goals = asked_goals(options, world, _ADVICE)
+    answers = _Answers(options, world, [query.replace(goals=[goal]) for goal in goals])
     return Reply(answers.text, answers.value, {"foon": answers.foon}, answers.statuses)
 
 
@@ -156,7 +160,7 @@ class _Answers:
 
     def value(self) -> Any:
         values = [self._value(answer) for answer in self._found()]
-        return values[0] if self._options.goals is None else values
+        return values[0] if self._options.goals is None and len(values) == 1 else values
 
     def _value(self, answer: Answer | Alternatives) -> RetrievalJson | AlternativesJson:
         from foon_asp.retrieval.trace import bounds
