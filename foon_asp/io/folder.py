@@ -160,23 +160,23 @@ class Sources:
         if not paths:
             raise InputError(root, None, "no FOON.txt and no other *.txt", "name FOON files with --foon")
 
+        others = folder is None and bool(named)
+
         def beside(named: str | Path | None, usual: str) -> str | None:
             return str(named) if named is not None else _there(root / usual)
 
-        kitchen = beside(files.get("kitchen"), "kitchen.json")
-        goals = beside(files.get("goals"), "goal_nodes.json")
-        if folder is None and named:
-            # The built-in kitchen and its goals go with the built-in FOON.
-            kitchen = None if files.get("kitchen") is None else kitchen
-            goals = None if files.get("goals") is None else goals
+        def made_for_it(named: str | Path | None, usual: str) -> str | None:
+            """Return a file that goes with one FOON: the built-in kitchen and goals are of no other."""
+            return None if named is None and others else beside(named, usual)
+
         return cls(
             str(root),
             tuple(paths),
-            kitchen,
+            made_for_it(files.get("kitchen"), "kitchen.json"),
             beside(files.get("rates"), "motion.txt"),
             beside(files.get("costs"), "motion_cost.json"),
             beside(files.get("utensils"), "utensils.txt"),
-            goals,
+            made_for_it(files.get("goals"), "goal_nodes.json"),
             files.get("default_rate"),
             files.get("default_cost"),
             files.get("strict_format", False),
