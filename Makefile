@@ -10,6 +10,8 @@ demo: .venv/ready
 	$(BIN)/foon-asp retrieve "greek salad" --method optimal --by success
 	$(BIN)/foon-asp reach
 	$(BIN)/foon-asp compare "whipped cream" "greek salad" ice macaroni "sweet potato" "chicken curry" hummus
+	$(BIN)/foon-asp draw "greek salad" --by success -o build/greek_salad.svg --overwrite --quiet
+	@echo "A picture of the greek salad: build/greek_salad.svg"
 
 # Check everything: format, lint, types, import layers, tests (the encodings' lint is one of them).
 test: .venv/ready

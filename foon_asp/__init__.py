@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from foon_asp.api import World, check, consolidate, load, read
+    from foon_asp.draw.formats import Drawing
     from foon_asp.errors import FoonError, FoonWarning, InputError, QueryError
     from foon_asp.model.foon import Foon, merge
     from foon_asp.model.kitchen import Kitchen
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "api": ("World", "check", "consolidate", "load", "read"),
+    "draw.formats": ("Drawing",),
     "errors": ("FoonError", "FoonWarning", "InputError", "QueryError"),
     "model.foon": ("Foon", "merge"),
     "model.kitchen": ("Kitchen",),
@@ -68,6 +70,7 @@ __all__ = [
     "Consolidation",
     "Constraints",
     "Costs",
+    "Drawing",
     "Explanation",
     "Foon",
     "FoonError",

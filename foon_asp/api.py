@@ -12,7 +12,7 @@ from functools import cached_property
 from multiprocessing import get_context
 from pathlib import Path
 from types import ModuleType
-from typing import TypedDict, Unpack
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 from foon_asp.errors import FoonWarning, InputError, QueryError
 from foon_asp.io.costs import read_costs
@@ -31,6 +31,9 @@ from foon_asp.model.node import Annotation, ObjectId, ObjectNode, UnitId, check_
 from foon_asp.model.relations import Matching
 from foon_asp.model.world import World as ModelWorld
 from foon_asp.numbers import COUNT, SOME
+from foon_asp.planning.answer import PlanAnswer
+from foon_asp.planning.planner import plan
+from foon_asp.planning.query import OWN_ENGINE, PlanQuery
 from foon_asp.query.constraints import Constraints
 from foon_asp.query.goals import Named, find_object, written_object
 from foon_asp.query.kitchen_change import KitchenChange
@@ -55,6 +58,9 @@ from foon_asp.retrieval.suggest import Suggestions, suggest
 from foon_asp.retrieval.tree import Replay, Step, TaskTree
 from foon_asp.values import a_list, said
 from foon_asp.words import shortened
+
+if TYPE_CHECKING:
+    from foon_asp.draw.formats import Drawing
 
 Asked = Query | Named
 """A question; a goal alone, as a text or an object node, asks for its best tree."""
@@ -91,8 +97,22 @@ class World:
     def __repr__(self) -> str:
         return repr(self._world)
 
+    def draw(self, around: Named | None = None, hops: int = 1, *, dark: bool | None = None) -> Drawing:
+        """Return the FOON as a picture (of a large one an overview), or what is `around` an object of it.
+
+        The units that make or need the object are one hop away.
+        """
+        from foon_asp.draw.views import world_drawing
+
+        return world_drawing(self._world, around, hops, dark)
+
+    def _repr_svg_(self) -> str | None:
+        from foon_asp.draw.views import svg_unasked
+
+        return svg_unasked(self.foon.units, self.draw)
+
     def _repr_html_(self) -> str:
-        from foon_asp.render.notebook import table
+        from foon_asp.render.notebook import pictured, table
 
         foon = self.foon
         rows = [
@@ -102,7 +122,7 @@ class World:
             ("objects in the kitchen", f"{len(self.kitchen.objects):,}"),
             ("goals named by the data", f"{len(self.goals):,}"),
         ]
-        return table(("world", ""), rows)
+        return pictured(self._repr_svg_(), table(("world", ""), rows))
 
     @property
     def foon(self) -> Foon:
@@ -184,6 +204,20 @@ class World:
         """Return one tree for several dishes; `leave_out` leaves out those that cannot be made."""
         query = goals if isinstance(goals, Query) else Query(*a_list(goals, "goals", "objects"))
         return plan_menu(self._world, query, leave_out=leave_out)
+
+    def plan(
+        self,
+        query: Asked,
+        *,
+        engine: str = OWN_ENGINE,
+        semantics: str = "consume",
+        max_steps: int | None = None,
+    ) -> PlanAnswer:
+        """Return a plan, in which things are used up as `semantics` says; it is true if there is one.
+
+        `engine` is clingo or one that unified-planning finds; clingo tries `max_steps` parallel steps.
+        """
+        return plan(self._world, PlanQuery(Query.of(query), engine, semantics, max_steps))
 
     def explain(self, query: Asked, *, most: int = 1) -> Explanation:
         """Say why there is no task tree and what is missing, `most` smallest sets; or what steps are for."""

@@ -268,7 +268,9 @@ def output(parser: Parser, *formats: str) -> None:
         "-o", "--output", default="-", metavar="OUT", help="output, a file (default: -, standard output)"
     )
     if formats:
-        group.add_argument("--format", choices=formats, default=formats[0], help=f"default: {formats[0]}")
+        group.add_argument(
+            "--format", choices=formats, default=formats[0], help=f"format (default: {formats[0]})"
+        )
     overwrite(group)
     messages(group)
 

@@ -33,7 +33,8 @@ class Reply:
     `text` returns pieces, which may be made only when they are written; None: the command has written its
     files itself. `value` returns what `--format json` writes, `others` the pieces of further formats.
     `statuses`, of all questions, are complete once the answer is written. `summary` is for standard error.
-    `failed` is for a command that is told to fail by what it finds: then the exit status is 1.
+    `failed` is for a command that is told to fail by what it finds: then the exit status is 1. `data` is an
+    answer that is no text, in the format that was asked for.
     """
 
     text: Callable[[], Iterable[str]] | None = None
@@ -42,6 +43,7 @@ class Reply:
     statuses: Collection[Status] = ()
     summary: str = ""
     failed: bool = False
+    data: bytes | None = None
 
     def pieces(self, form: str) -> Iterable[str]:
         """Return the answer in a format."""
@@ -105,6 +107,9 @@ def folder_to_write(options: argparse.Namespace) -> Path:
 
 def emit(reply: Reply, options: argparse.Namespace) -> None:
     """Write an answer where the options say, in the format that they name."""
+    if reply.data is not None:
+        _write_data(options.output, reply.data)
+        return
     pieces = reply.pieces(options.format)
     to_be_read = options.format == "text" or (options.output == STDOUT and _is_terminal(sys.stdout))
     write(options.output, map(visible, pieces) if to_be_read else pieces)
@@ -120,6 +125,19 @@ def write(target: str, pieces: Iterable[str]) -> None:
             sys.stdout.write(piece)
     with told():
         sys.stdout.flush()
+
+
+def _write_data(target: str, data: bytes) -> None:
+    """Write what is no text to standard output, which must be no terminal, or to a file."""
+    if target != STDOUT:
+        atomic.write_bytes(Path(target), data)
+        return
+    if _is_terminal(sys.stdout):
+        raise InputError("standard output", None, "a terminal shows no such format", "name a file with -o")
+    with told():
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
 
 
 def _is_terminal(stream: TextIO | None) -> bool:

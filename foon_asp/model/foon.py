@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
 from itertools import compress
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -24,10 +24,16 @@ from foon_asp.model.numbering import Numbering, RowNumbering, with_set
 from foon_asp.model.tables import Notes, ObjectTable, StateTable, UnitTable
 from foon_asp.values import a_list, said
 
+if TYPE_CHECKING:
+    import networkx as nx
+    import pandas as pd
+
+    from foon_asp.draw.formats import Drawing
+
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Foon:
     """A FOON: object nodes and functional units, each named by its index.
 
@@ -37,6 +43,42 @@ class Foon:
     objects: ObjectTable
     units: UnitTable
     duplicates: int = 0
+
+    def draw(
+        self, around: ObjectNode | str | None = None, hops: int = 1, *, dark: bool | None = None
+    ) -> Drawing:
+        """Return the FOON as a picture (of a large one an overview), or what is `around` an object of it.
+
+        The units that make or need the object are one hop away.
+        """
+        from foon_asp.draw.views import foon_drawing
+
+        return foon_drawing(self, around, hops, dark)
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the units as a table, a row each: motion, inputs, outputs, times, rate, source, video."""
+        from foon_asp.render.frames import foon_frame
+
+        return foon_frame(self)
+
+    def to_networkx(self) -> nx.DiGraph:
+        """Return the FOON as a directed graph: object nodes, and the ids of units between them."""
+        from foon_asp.render.graphs import foon_graph
+
+        return foon_graph(self)
+
+    def __repr__(self) -> str:
+        return f"<Foon: {len(self.units):,} units, {len(self.objects):,} objects>"
+
+    def _repr_html_(self) -> str:
+        from foon_asp.render.notebook import foon_html
+
+        return foon_html(self)
+
+    def _repr_svg_(self) -> str | None:
+        from foon_asp.draw.views import svg_unasked
+
+        return svg_unasked(self.units, self.draw)
 
     def id_of(self, node: ObjectNode) -> ObjectId | None:
         """Return the id of a node, or None if the FOON does not know it."""

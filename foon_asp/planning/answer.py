@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+from foon_asp.errors import QueryError
 from foon_asp.limits import Limit
 from foon_asp.model.consumption import Effects
 from foon_asp.model.node import ObjectNode
@@ -11,8 +13,11 @@ from foon_asp.planning.plan import Plan
 from foon_asp.planning.query import PlanQuery
 from foon_asp.query.status import Status
 
+if TYPE_CHECKING:
+    from foon_asp.draw.formats import Drawing
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, repr=False)
 class PlanAnswer:
     """The answer to a question about plans; it is true if it has a plan, which was replayed.
 
@@ -40,6 +45,26 @@ class PlanAnswer:
 
     def __bool__(self) -> bool:
         return self.plan is not None
+
+    def __str__(self) -> str:
+        from foon_asp.render.plan import answer_text
+
+        return answer_text(self).rstrip()
+
+    def __repr__(self) -> str:
+        goals = "; ".join(map(str, self.goals))
+        return f"<PlanAnswer: {goals}, {self.status}{f': {self.reason}' if self.reason else ''}>"
+
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return the plan as a picture; raise `QueryError` if there is none."""
+        if self.plan is None:
+            raise QueryError(f"no plan: {self.reason or self.status}")
+        return self.plan.draw(dark=dark)
+
+    def _repr_html_(self) -> str:
+        from foon_asp.render.notebook import plan_answer_html
+
+        return plan_answer_html(self)
 
     @property
     def goals(self) -> tuple[ObjectNode, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from foon_asp import limits
 from foon_asp.model.consumption import Effects
@@ -13,6 +13,12 @@ from foon_asp.model.supply import Supply
 from foon_asp.model.world import World
 from foon_asp.planning.problem import PlanProblem
 from foon_asp.retrieval.tree import Replay
+from foon_asp.words import counted
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from foon_asp.draw.formats import Drawing
 
 T = TypeVar("T")
 
@@ -20,7 +26,7 @@ _State = tuple[frozenset[ObjectId], frozenset[tuple[ObjectId, int]]]
 """What was made and is still there, and how many there are left of what the kitchen counts."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Plan:
     """Units in the order of execution; a unit may occur several times.
 
@@ -48,6 +54,38 @@ class Plan:
     def executable(self) -> bool:
         """Whether the replay reaches the goals."""
         return self.replay.executable
+
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return the plan as a picture, each object node as often as it is made."""
+        from foon_asp.draw.views import plan_drawing
+
+        return plan_drawing(self, dark)
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the steps as a table, a row each: parallel step, motion, takes, makes, gone, unit."""
+        from foon_asp.render.frames import plan_frame
+
+        return plan_frame(self)
+
+    def __str__(self) -> str:
+        from foon_asp.render.plan import plan_text
+
+        return plan_text(self, Effects(self.world, self.semantics)).rstrip()
+
+    def __repr__(self) -> str:
+        goals = "; ".join(str(self.world.node(goal)) for goal in self.goals)
+        broken = "" if self.executable else ", NOT EXECUTABLE"
+        return f"<Plan: {goals}, {counted(len(self.units), 'step')}{broken}>"
+
+    def _repr_html_(self) -> str:
+        from foon_asp.render.notebook import plan_html
+
+        return plan_html(self)
+
+    def _repr_svg_(self) -> str | None:
+        from foon_asp.draw.views import svg_unasked
+
+        return svg_unasked(self.units, self.draw)
 
     @property
     def makespan(self) -> int:

@@ -6,6 +6,11 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from foon_asp.model.consumption import Effects
+from foon_asp.model.foon import Foon
+from foon_asp.model.node import ObjectId
+from foon_asp.model.supply import Supply
+from foon_asp.planning.plan import Plan
 from foon_asp.query.objective import Costs
 from foon_asp.retrieval.alternatives import Alternatives
 from foon_asp.retrieval.compare import Row
@@ -39,6 +44,54 @@ def tree_frame(tree: TaskTree) -> pd.DataFrame:
         for step in tree.steps
     )
     return _frame(rows, ("round", "motion", "takes", "makes", "unit", "source", "human"), "step")
+
+
+def foon_frame(foon: Foon) -> pd.DataFrame:
+    """Return the units of a FOON, one a row; objects are texts, joined by semicolons."""
+    objects = foon.objects
+    rows = (
+        {
+            "unit": unit.id,
+            "motion": unit.motion,
+            "inputs": "; ".join(str(objects[number]) for number in unit.inputs),
+            "outputs": "; ".join(str(objects[number]) for number in unit.outputs),
+            "start": unit.annotation.start,
+            "end": unit.annotation.end,
+            "rate": unit.annotation.rate,
+            "source": str(unit.source),
+            "video": unit.source.video,
+        }
+        for unit in foon.units
+    )
+    columns = ("motion", "inputs", "outputs", "start", "end", "rate", "source", "video")
+    return _frame(rows, columns, "unit")
+
+
+def plan_frame(plan: Plan) -> pd.DataFrame:
+    """Return the steps of a plan, one a row; objects are texts, joined by semicolons."""
+    world = plan.world
+
+    def named(numbers: Iterable[ObjectId]) -> str:
+        return "; ".join(str(world.node(number)) for number in numbers)
+
+    supply = Supply(Effects(world, plan.semantics))
+    rows = []
+    for place, (number, parallel) in enumerate(zip(plan.units, plan.steps, strict=True), 1):
+        unit, gone = world.foon.units[number], supply.used_up(number)
+        supply.execute(number)
+        rows.append(
+            {
+                "step": place,
+                "parallel": parallel,
+                "motion": unit.motion,
+                "takes": named(unit.inputs),
+                "makes": named(world.units.makes[number]),
+                "gone": named(gone),
+                "unit": number,
+                "source": str(unit.source),
+            }
+        )
+    return _frame(rows, ("parallel", "motion", "takes", "makes", "gone", "unit", "source"), "step")
 
 
 _COSTS = ("units", "inputs", "success", "depth", "tools", "dirty", "motions", "time", "human")

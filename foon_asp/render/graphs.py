@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import networkx as nx
 
+from foon_asp.model.foon import Foon
 from foon_asp.retrieval.tree import TaskTree
 
 
@@ -25,4 +26,20 @@ def tree_graph(tree: TaskTree) -> nx.DiGraph:
         graph.add_edges_from((step.place, node) for node in step.makes)
     for goal in goals:
         graph.add_node(goal, kind="object", goal=True, at_hand=goal in at_hand)
+    return graph
+
+
+def foon_graph(foon: Foon) -> nx.DiGraph:
+    """Return a FOON as a directed graph of object nodes and units.
+
+    Object nodes are `ObjectNode`s with `kind="object"`; units are their ids (0, 1, …) with `kind="motion"`,
+    `motion` and `source`. Edges lead from inputs to units, and from units to outputs, as they are annotated.
+    """
+    graph = nx.DiGraph()
+    for node in foon.objects:
+        graph.add_node(node, kind="object")
+    for unit in foon.units:
+        graph.add_node(unit.id, kind="motion", motion=unit.motion, source=str(unit.source))
+        graph.add_edges_from((foon.objects[number], unit.id) for number in unit.inputs)
+        graph.add_edges_from((unit.id, foon.objects[number]) for number in unit.outputs)
     return graph

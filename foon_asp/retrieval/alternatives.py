@@ -38,6 +38,8 @@ from foon_asp.words import counted
 if TYPE_CHECKING:
     import pandas as pd
 
+    from foon_asp.draw.formats import Drawing
+
 KINDS = ("best", "all optimal", "diverse", "pareto")
 
 _MOST = 10_000
@@ -86,6 +88,12 @@ class Alternatives:
         from foon_asp.render.frames import alternatives_frame
 
         return alternatives_frame(self)
+
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return trade-offs as a plot, other trees beside each other."""
+        from foon_asp.draw.views import alternatives_drawing
+
+        return alternatives_drawing(self, dark)
 
     def _repr_html_(self) -> str:
         return str(self.to_frame().to_html())

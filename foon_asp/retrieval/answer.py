@@ -17,6 +17,7 @@ from foon_asp.retrieval.tree import Step, TaskTree
 from foon_asp.words import counted
 
 if TYPE_CHECKING:
+    from foon_asp.draw.formats import Drawing
     from foon_asp.retrieval.wire import RetrievalJson
 
 
@@ -127,6 +128,12 @@ class Answer:
         from foon_asp.render.tree import retrieval_text
 
         return retrieval_text(self).rstrip()
+
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return the tree as a picture; raise `QueryError` if there is none."""
+        from foon_asp.draw.views import answer_drawing
+
+        return answer_drawing(self, dark)
 
     def _repr_html_(self) -> str:
         from foon_asp.render.notebook import answer_html

@@ -36,6 +36,8 @@ from foon_asp.words import counted
 if TYPE_CHECKING:
     import pandas as pd
 
+    from foon_asp.draw.formats import Drawing
+
 Difference = Literal["later", "place", "state", "name"]
 """How what is near differs: it is the same but made later, elsewhere, in another state, or another name."""
 
@@ -189,6 +191,12 @@ class Checks(Sequence[Check]):
         from foon_asp.render.check import checks_text
 
         return checks_text(self).rstrip()
+
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return the trees as a picture, with what is wrong with them."""
+        from foon_asp.draw.views import checks_drawing
+
+        return checks_drawing(self, dark)
 
     @property
     def executable(self) -> bool:

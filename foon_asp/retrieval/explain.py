@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from foon_asp.errors import QueryError
 from foon_asp.io.wire import dumps
@@ -24,6 +25,9 @@ from foon_asp.retrieval.missing import MissingSets, missing_sets, stocked
 from foon_asp.retrieval.nearest import Near, NearObjects
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.steps import Instead, StepRole, explain_steps, without_unit
+
+if TYPE_CHECKING:
+    from foon_asp.draw.formats import Drawing
 
 MOST = 50
 """How many sets of missing objects are sought, unless more are asked for."""
@@ -90,6 +94,12 @@ class Explanation:
     def to_json(self) -> str:
         """Return the answer as the command writes it with `--format json`."""
         return dumps(explanation_json(self))
+
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return what is missing and why as a picture; where nothing is, the tree."""
+        from foon_asp.draw.views import explanation_drawing
+
+        return explanation_drawing(self, dark)
 
     @property
     def goal(self) -> ObjectNode:

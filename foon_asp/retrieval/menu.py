@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from foon_asp.io.wire import dumps
 from foon_asp.limits import limited
@@ -18,6 +19,9 @@ from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.tree import TaskTree
 from foon_asp.retrieval.wire import menu_json
 from foon_asp.words import counted
+
+if TYPE_CHECKING:
+    from foon_asp.draw.formats import Drawing
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -47,6 +51,12 @@ class Menu:
     def to_json(self) -> str:
         """Return the answer as the command writes it with `--format json`."""
         return dumps(menu_json(self))
+
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return the tree of all dishes as a picture; raise `QueryError` if there is none."""
+        from foon_asp.draw.views import menu_drawing
+
+        return menu_drawing(self, dark)
 
     @property
     def status(self) -> Status:

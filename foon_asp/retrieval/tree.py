@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import networkx as nx
     import pandas as pd
 
+    from foon_asp.draw.formats import Drawing
+
 
 @dataclass(frozen=True, slots=True)
 class Replay:
@@ -153,6 +155,12 @@ class TaskTree:
 
         return tree_graph(self)
 
+    def draw(self, against: TaskTree | None = None, *, dark: bool | None = None) -> Drawing:
+        """Return the tree as a picture, or this one and another one over each other."""
+        from foon_asp.draw.views import tree_drawing
+
+        return tree_drawing(self, against, dark)
+
     def __str__(self) -> str:
         from foon_asp.render.tree import steps_text
 
@@ -167,6 +175,11 @@ class TaskTree:
         from foon_asp.render.notebook import tree_html
 
         return tree_html(self)
+
+    def _repr_svg_(self) -> str | None:
+        from foon_asp.draw.views import svg_unasked
+
+        return svg_unasked(self.units, self.draw)
 
     def __iter__(self) -> Iterator[Step]:
         return iter(self.steps)

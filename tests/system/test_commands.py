@@ -31,7 +31,7 @@ from support.paths import ROOT
 SELDOM = {
     *("clingo.ast", "foon_asp.asp.rules", "foon_asp.io.json", "foon_asp.io.store", "foon_asp.retrieval.wire"),
     *("hashlib", "importlib.metadata", "msgspec", "multiprocessing", "networkx", "numpy.ma", "pandas"),
-    *("psutil", "pyarrow", "rapidfuzz", "tqdm", "unified_planning"),
+    *("psutil", "pyarrow", "pygraphviz", "rapidfuzz", "tqdm", "unified_planning"),
 }
 """What is nothing to a question without options, and takes a while to be imported."""
 
@@ -147,7 +147,7 @@ def test_a_flag_means_the_same_in_every_command(capsys: pytest.CaptureFixture[st
             meanings.setdefault(flag, {}).setdefault(meaning, []).append(command)
     capsys.readouterr()
     assert {flag: found for flag, found in meanings.items() if len(found) > 1} == {}
-    assert len(meanings["--quiet"].popitem()[1]) == len(meanings["--overwrite"].popitem()[1]) == 21
+    assert len(meanings["--quiet"].popitem()[1]) == len(meanings["--overwrite"].popitem()[1]) == 22
 
 
 @pytest.fixture
@@ -162,6 +162,7 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 WRITERS = {
     "ice.txt": ["retrieve", "ice", "-o", "ice.txt"],
     "ice.json": ["retrieve", "ice", "--format", "json", "--output", "ice.json"],
+    "ice.svg": ["draw", "ice", "-o", "ice.svg"],
     "f.lp": ["facts", "ice", "-o", "f.lp"],
     "engines.txt": ["engines", "-o", "engines.txt"],
     "out.json": ["convert", "a.txt", "-o", "out.json"],

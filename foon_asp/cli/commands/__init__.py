@@ -12,6 +12,7 @@ def _command(name: str, summary: str, description: str = "") -> Command:
 COMMANDS = {
     "retrieve": _command("retrieve", "retrieve a task tree for a goal"),
     "explain": _command("explain", "say why there is no task tree, or what its steps are for"),
+    "draw": _command("draw", "draw task trees, plans, menus, FOONs, and what is missing"),
     "suggest": _command("suggest", "say what can be cooked, the best dishes first"),
     "menu": _command("menu", "make several dishes, and share their steps"),
     "reach": _command("reach", "say what the kitchen can make"),
