@@ -18,6 +18,7 @@ from foon_asp.io.kitchen import read_labels
 from foon_asp.model.consumption import SEMANTICS
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import ObjectNode
+from foon_asp.model.units import Units
 from foon_asp.model.world import World
 from foon_asp.planning.answer import PlanAnswer
 from foon_asp.planning.planner import plan
@@ -145,8 +146,8 @@ def alone(path: Path, utensils: frozenset[str]) -> tuple[World, list[ObjectNode]
     """Return a file as a domain whose kitchen is what no unit of it makes, and its marked goals."""
     files = read_foon([path])
     foon = files.foon
-    made = {number for unit in foon.units for number in unit.outputs if not foon.objects[number].bare}
-    raw = {number for unit in foon.units for number in unit.inputs} - made
+    makers = Units(foon, utensils).makers
+    raw = {number for unit in foon.units for number in unit.inputs if number not in makers}
     kitchen = Kitchen(tuple(foon.objects[number] for number in sorted(raw)), utensils, default_rate=1.0)
     return World.of(foon, kitchen), foon.marked_goals()
 

@@ -22,8 +22,8 @@ class Effects:
 
     What a unit needs and does not use up it adds no second time, though its outputs list it: it is given
     back. So is a counted implied view, which need not be there: `restores`. Implied views are deleted like
-    all other inputs. Bare objects are tools and never deleted, nor is on a lower level what stands for
-    several objects: `World.lasting`. What the kitchen holds is in stock and never used up, unless the
+    all other inputs. Tools are never deleted, nor is on a lower level what stands for several objects:
+    `World.lasting`. What the kitchen holds is in stock and never used up, unless the
     kitchen says how many there are: `counted`.
     """
 
@@ -84,6 +84,5 @@ class Effects:
             object_id
             for object_id in takes
             if object_id not in kept
-            and (not world.node(object_id).bare or world.labels_only)
             and (self.semantics == "consume" or world.node(object_id).label in became)
         )

@@ -29,10 +29,13 @@ class Units:
     """What each unit needs and makes, given which labels are utensils.
 
     `takes[U]` and `gives[U]`: inputs and outputs, as `match_relations` reads them. `needs[U]`: what it takes,
-    but for implied views; `makes[U]`: what it gives, but for bare objects. `needed[U]` and `made[U]` are the
-    same, for searches that come by again and again; `vessels[O]` are the utensils in an object.
+    but for implied views; `makes[U]`: what it gives, but for bare objects that are only listed again: those
+    of utensils, and those whose label an input has. `needed[U]` and `made[U]` are the same, for searches that
+    come by again and again; `vessels[O]` are the utensils in an object.
     With `strict` every input is needed. With `labels_only` every output is made: where nodes are labels
-    alone, all are bare, and that does not tell a tool from an object that is made.
+    alone, all are bare, and that does not tell a tool from an object that is made. `products` are the bare
+    outputs that are made, for a FOON whose units are those of another one with other labels or less known of
+    them: there it was read what is a product.
     """
 
     def __init__(
@@ -43,6 +46,7 @@ class Units:
         strict: bool = False,
         labels_only: bool = False,
         match_relations: Matching = "strict",
+        products: Collection[tuple[UnitId, ObjectId]] | None = None,
     ) -> None:
         self.foon = foon
         self.strict = strict
@@ -53,9 +57,13 @@ class Units:
         if self.stand_ins is not None:
             self.takes, self.gives = self.stand_ins.read(self.takes), self.stand_ins.read(self.gives)
         takes, gives = self.takes, self.gives
-        stateful = foon.objects.states.lengths > 0
         self.needs = takes if strict else takes.where(~_implied(takes, foon.objects, utensils, self.loose))
-        self.makes = gives if labels_only else gives.where(stateful[gives.values])
+        if labels_only:
+            self.makes = gives
+        elif products is None:
+            self.makes = gives.where(~_listed_again(takes, gives, foon.objects, utensils))
+        else:
+            self.makes = gives.where(_stateful(gives, foon.objects) | _among(gives, products))
         self.needed: Kept[UnitId, tuple[ObjectId, ...]] = Kept(self.needs.__getitem__)
         self.made: Kept[UnitId, tuple[ObjectId, ...]] = Kept(self.makes.__getitem__)
         # Not a method: what refers to itself stays in memory until Python looks for cycles.
@@ -95,6 +103,39 @@ class Units:
     def users(self) -> Index[ObjectId, UnitId]:
         """The units that need an object, in file order."""
         return Index(self.needs, len(self.foon.objects))
+
+
+def _stateful(ports: Rows[UnitId, ObjectId], objects: ObjectTable) -> Mask:
+    """Say of each port whether its object has a state."""
+    return (objects.states.lengths > 0)[ports.values]
+
+
+def _among(ports: Rows[UnitId, ObjectId], some: Collection[tuple[UnitId, ObjectId]]) -> Mask:
+    """Say of each port whether it is one of some."""
+    pairs = zip(ports.owners.tolist(), ports.values.tolist(), strict=True)
+    return np.array([pair in some for pair in pairs], dtype=np.bool_)
+
+
+def _listed_again(
+    takes: Rows[UnitId, ObjectId],
+    gives: Rows[UnitId, ObjectId],
+    objects: ObjectTable,
+    utensils: Collection[str],
+) -> Mask:
+    """Say of each output whether it is bare, and a utensil or of the label of an input of the same unit."""
+    again = ~_stateful(gives, objects)
+    utensil = np.array([label in utensils for label in objects.labels], dtype=np.bool_)
+    asked = again & ~utensil[objects.label[gives.values]]
+    if asked.any():
+        units = np.zeros(len(takes), dtype=np.bool_)
+        units[gives.owners[asked]] = True
+        own = units[takes.owners]
+        before, behind = (
+            side.owners[which].astype(np.int64) * len(objects.labels) + objects.label[side.values[which]]
+            for side, which in ((takes, own), (gives, asked))
+        )
+        _, again[asked] = places(behind, distinct(before))
+    return again
 
 
 def _vessels(objects: ObjectTable, utensils: frozenset[str], number: ObjectId) -> Vessels:

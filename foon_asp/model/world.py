@@ -179,15 +179,27 @@ class World:
 
     @cached_property
     def lasting(self) -> frozenset[ObjectId]:
-        """The objects of a lower level that are never used up: one that stands for several might be another.
+        """The objects that are never used up: tools, which are bare and made by no unit.
 
-        docs/levels.md says why that is so.
+        On a lower level these are the images of all bare objects, and those that stand for several, as one of
+        them might be another: docs/levels.md says why. In a FOON without any state nothing is a tool by that.
         """
         if self.seen_from is None:
-            return frozenset()
+            return self._tools
         full = self.seen_from
         nodes = lasting((*full.foon.objects, *full.strangers), self.level)
         return frozenset(number for number in self.ids if self.node(number) in nodes)
+
+    @property
+    def _tools(self) -> frozenset[ObjectId]:
+        made = np.zeros(len(self.ids), dtype=np.bool_)
+        made[self.units.makes.values] = True
+        bare = np.zeros(len(self.ids), dtype=np.bool_)
+        bare[: len(self.foon.objects)] = self.foon.objects.states.lengths == 0
+        bare[len(self.foon.objects) :] = [node.bare for node in self.strangers]
+        if bare.all():
+            return frozenset()
+        return frozenset(map(ObjectId, np.flatnonzero(bare & ~made).tolist()))
 
     @cached_property
     def kitchen_alone(self) -> World:

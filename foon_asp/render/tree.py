@@ -126,7 +126,7 @@ def port_lines(
         node = foon.objects[number]
         step = maker.get(world.units.read(number))
         name = str(node) + ("" if step is None else f" (step {step})")
-        (tools if node.bare else others).append(name)
+        (tools if node.bare and step is None else others).append(name)
     return [
         *_listed("take", others),
         *_listed("with", tools),

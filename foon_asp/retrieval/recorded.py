@@ -16,7 +16,7 @@ from foon_asp.model.units import Units
 from foon_asp.model.world import World
 from foon_asp.query.objective import Costs
 from foon_asp.retrieval.tree import Record, Replay, TaskTree, replay
-from foon_asp.retrieval.wire import CostsJson, RetrievalJson
+from foon_asp.retrieval.wire import CostsJson, RetrievalJson, TreeUnitJson
 
 
 def read_retrieval(text: str | bytes) -> RetrievalJson:
@@ -39,6 +39,7 @@ def recorded_tree(value: RetrievalJson) -> TaskTree | None:
     goal = recorded_node(value.goal)
     builder.object(goal)
     order = []
+    products: set[tuple[UnitId, ObjectId]] = set()
     for unit in value.units:
         source = Source(unit.source.file, unit.source.line, unit.source.video)
         inputs, outputs = (
@@ -48,11 +49,12 @@ def recorded_tree(value: RetrievalJson) -> TaskTree | None:
         if added is not Added.NEW:
             raise QueryError(f"the answer has the unit {unit.id} twice")
         order.append(number)
+        products.update((number, made) for made in _products(unit, builder))
     foon = builder.build()
     labels_only = all(node.bare for node in foon.objects)
     for matching in MATCHINGS:
         # How relations were matched is not written down; loosely only if they had to be.
-        units = Units(foon, (), labels_only=labels_only, match_relations=matching)
+        units = Units(foon, (), labels_only=labels_only, match_relations=matching, products=products)
         world = World(units, Kitchen(tuple(_taken(units, goal, order, executable=value.executable))))
         if replay(world, (world.id_of(goal),), order).executable == value.executable:
             break
@@ -73,6 +75,13 @@ def recorded_tree(value: RetrievalJson) -> TaskTree | None:
         frozenset(number for number, unit in zip(order, value.units, strict=True) if unit.agent == "human"),
         Record(tuple(UnitId(unit.id) for unit in value.units), _costs(value.costs), value.depth),
     )
+
+
+def _products(unit: TreeUnitJson, builder: FoonBuilder) -> list[ObjectId]:
+    """Return the bare outputs that a unit makes: what is a utensil is told by the record alone."""
+    kept = {node.label for node in (*unit.inputs, *(unit.tools or ()))}
+    nodes = (recorded_node(node) for node in unit.outputs if node.label not in kept)
+    return [builder.object(node) for node in nodes if node.bare]
 
 
 def _taken(units: Units, goal: ObjectNode, order: list[UnitId], *, executable: bool) -> list[ObjectNode]:

@@ -289,6 +289,7 @@ def made_with(
     gone = {label for label, by in labels.items() if by is None}
     goals = tuple(goals)
     own: dict[UnitId, UnitId] = {}
+    products: set[tuple[UnitId, ObjectId]] = set()
     for number in units:
         unit = world.foon.units[number]
         # A vessel that was implied by what it held is not there without it.
@@ -302,6 +303,9 @@ def made_with(
         made, added = builder.unit(unit.motion, inputs, outputs, note)
         if added is Added.NEW:
             own[made] = number
+        # An input may have the label of a bare product now.
+        for node in _replaced(world, world.units.makes[number], labels):
+            products.add((made, builder.object(node)))
     wanted = _replaced(world, goals, labels)
     for goal in wanted:
         builder.object(goal)
@@ -311,6 +315,7 @@ def made_with(
         strict=world.strict,
         labels_only=world.labels_only,
         match_relations=world.match_relations,
+        products=products,
     )
     small = World(reading, world.kitchen)
     done = set(human)

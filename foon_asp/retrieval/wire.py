@@ -98,6 +98,13 @@ class TreeUnitJson(UnitJson):
     """A functional unit of a tree."""
 
     agent: Annotated[Literal["robot", "human"], means("Who does it; a human never fails.")]
+    tools: Annotated[
+        list[ObjectJson] | UnsetType,
+        means(
+            "What it lists behind its motion alone and does not make: utensils without states. Left out "
+            "where there are none."
+        ),
+    ] = UNSET
 
 
 Goal = Annotated[ObjectJson, means("The object node that was asked for.")]
@@ -311,10 +318,12 @@ class TreeJson(JsonObject):
 
 def _tree_units(tree: TaskTree) -> list[TreeUnitJson]:
     rows = zip(tree.functional_units, tree.numbers, strict=True)
-    return [
-        structs.replace(TreeUnitJson.of(tree.world.foon, unit, agent=_agent(tree, unit)), id=number)
-        for unit, number in rows
-    ]
+    return [structs.replace(_tree_unit(tree, unit), id=number) for unit, number in rows]
+
+
+def _tree_unit(tree: TaskTree, unit: FunctionalUnit) -> TreeUnitJson:
+    world = tree.world
+    return TreeUnitJson.of(world.foon, unit, agent=_agent(tree, unit), tools=_tools(world, unit))
 
 
 _WRITTEN = 1 << 14
@@ -328,7 +337,7 @@ def unit_texts(tree: TaskTree) -> list[str]:
     """
     if tree.record is not None:
         return [_unit_text(unit) for unit in _tree_units(tree)]
-    foon, written = tree.world.foon, tree.world.units.written
+    written = tree.world.units.written
     texts = []
     for number in tree.units:
         key = number, number in tree.human
@@ -336,14 +345,22 @@ def unit_texts(tree: TaskTree) -> list[str]:
         if text is None:
             if len(written) >= _WRITTEN:
                 written.clear()
-            unit = foon.units[number]
-            text = written[key] = _unit_text(TreeUnitJson.of(foon, unit, agent=_agent(tree, unit)))
+            unit = tree.world.foon.units[number]
+            text = written[key] = _unit_text(_tree_unit(tree, unit))
         texts.append(text)
     return texts
 
 
 def _unit_text(unit: TreeUnitJson) -> str:
     return json.dumps(to_builtins(unit), ensure_ascii=False)
+
+
+def _tools(world: World, unit: FunctionalUnit) -> list[ObjectJson] | UnsetType:
+    """Return the bare outputs of which only the utensils of a world tell that the unit does not make them."""
+    before = {world.node(number).label for number in unit.inputs}
+    made = world.units.makes[unit.id]
+    nodes = (world.node(number) for number in unit.outputs if number not in made)
+    return objects_json(node for node in nodes if node.bare and node.label not in before) or UNSET
 
 
 def _agent(tree: TaskTree, unit: FunctionalUnit) -> Literal["robot", "human"]:
@@ -423,7 +440,7 @@ def alternatives_json(result: Alternatives) -> AlternativesJson:
     )
 
 
-class MenuUnitJson(TreeUnitJson):
+class MenuUnitJson(TreeUnitJson, kw_only=True):
     """A functional unit of the tree for all dishes."""
 
     dishes: Annotated[
@@ -534,7 +551,11 @@ def _menu_tree(menu: Menu) -> MenuTreeJson:
     costs = costs_json(tree.costs)
     units = [
         MenuUnitJson.of(
-            tree.world.foon, unit, agent=_agent(tree, unit), dishes=objects_json(menu.dishes[unit.id])
+            tree.world.foon,
+            unit,
+            agent=_agent(tree, unit),
+            tools=_tools(tree.world, unit),
+            dishes=objects_json(menu.dishes[unit.id]),
         )
         for unit in tree.functional_units
     ]

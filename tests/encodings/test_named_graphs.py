@@ -89,7 +89,7 @@ TWO_WAYS = ("flour -bake-> bread", "salt -fry-> bread", "bread -toast-> toast")
 
 CASES = (
     Case(
-        "an implied view is not needed, a bare output is not made",
+        "an implied view is not needed, a bare output that an input is, too, is not made",
         "units.lp",
         VIEW,
         "",
@@ -172,9 +172,18 @@ CASES = (
     Case(
         "a tool that is listed again is not made",
         "reachability.lp",
-        ("a -wash-> (knife)", "(knife) -cut-> b"),
+        ("a -wash-> (knife)", "(knife) -cut-> b", "spoon[wet] -dry-> (spoon)", "(spoon) -stir-> b"),
+        "a + spoon[wet]",
+        ("available(a) available(spoon[wet]) executable(dry) executable(wash)",),
+        utensils=("knife",),
+        asked="available executable",
+    ),
+    Case(
+        "a product without states is made",
+        "reachability.lp",
+        ("a -blend-> (smoothie)", "(smoothie) -pour-> b"),
         "a",
-        ("available(a) executable(wash)",),
+        ("available((smoothie)) available(a) available(b) executable(blend) executable(pour)",),
         asked="available executable",
     ),
     Case(

@@ -90,7 +90,7 @@ def _works(where: World, tree: _Tree, goals: Sequence[ObjectNode]) -> bool:
     for step in tree:
         if not brute_force.needed(where, step.inputs) <= at_hand:
             return False
-        at_hand |= {thing for thing in step.outputs if thing.states}
+        at_hand |= brute_force.made(where, step.inputs, step.outputs)
     return set(goals) <= at_hand
 
 

@@ -36,13 +36,17 @@ from support.small_foons import MOTIONS, RATES, domains, many, node, world
 
 
 def never_used_up(where: World) -> set[ObjectNode]:
-    """Return what on a lower level stands for several objects, or for a tool; no FOON is all tools."""
+    """Return all tools, and what on a lower level stands for several objects; no FOON is all tools."""
     full = where.full
     every = {*full.foon.objects, *full.kitchen.objects}
     stands = [(project(thing, where.level), thing) for thing in every]
     several = {image for image, one in stands for also, other in stands if image == also and one != other}
     tools = {image for image, thing in stands if not thing.states}
-    return set() if where.level == FULL else several | (tools if any(t.states for t in every) else set())
+    if not any(thing.states for thing in every):
+        return several
+    if where.level == FULL:
+        return tools.difference(*(brute_force.makes(where, unit) for unit in where.foon.units))
+    return several | tools
 
 
 class Tokens:
@@ -62,15 +66,12 @@ class Tokens:
         # What is needed and given back is no second one, nor is a counted view that was there.
         self.restores = {
             unit.id: {where.foon.objects[number] for number in unit.inputs}.intersection(
-                thing for thing in self.outputs(unit) if self.real(thing) and thing in counts
-            )
-            - self.needs[unit.id]
+                self.made(unit), counts
+            ).difference(self.needs[unit.id])
             for unit in where.foon.units
         }
         self.adds = {
-            unit.id: {thing for thing in self.outputs(unit) if self.real(thing)}
-            - self.needs[unit.id]
-            - self.restores[unit.id]
+            unit.id: self.made(unit) - self.needs[unit.id] - self.restores[unit.id]
             for unit in where.foon.units
         }
         self.takes = {unit.id: self.taken(unit) for unit in where.foon.units}
@@ -78,9 +79,9 @@ class Tokens:
     def outputs(self, unit: FunctionalUnit) -> list[ObjectNode]:
         return [self.where.foon.objects[number] for number in unit.outputs]
 
-    def real(self, thing: ObjectNode) -> bool:
-        """Whether an object is no mere tool; labels alone do not tell."""
-        return bool(thing.states) or self.where.level == 1
+    def made(self, unit: FunctionalUnit) -> set[ObjectNode]:
+        """Return what a unit makes; labels alone do not tell."""
+        return set(self.outputs(unit)) if self.where.level == 1 else brute_force.makes(self.where, unit)
 
     def taken(self, unit: FunctionalUnit) -> set[ObjectNode]:
         if self.semantics == "add":
@@ -94,9 +95,9 @@ class Tokens:
                 if state.name == "contains"
                 for content in state.contents or ()
             ]
-            forms = {output.label for output in self.outputs(unit) if self.real(output)}
+            forms = {output.label for output in self.made(unit)}
             taken = {thing for thing in taken if thing.label in forms or thing.label in held}
-        return {thing for thing in taken if self.real(thing)} - self.endless - self.lasting
+        return taken - self.endless - self.lasting
 
     def has(self, state: State, thing: ObjectNode) -> bool:
         made, left = state

@@ -8,8 +8,10 @@ import pytest
 
 import foon_asp as fa
 from foon_asp.io.findings import Severity
+from foon_asp.io.folder import Dataset
 from foon_asp.io.trees import TreeBuilder
-from support.cli import run
+from foon_asp.model.world import World
+from support.cli import run, run_json
 from support.paths import PUBLIC_DATA
 from support.reading_checks import check_storing, check_writing, notes, read
 
@@ -99,3 +101,34 @@ def test_an_empty_file_among_good_ones(capsys: pytest.CaptureFixture[str]) -> No
     files = [CASES / name for name in ("empty.json", "trailing.json")]
     status, _, err = run(capsys, "convert", *files, "-o", "-", "--to", "text")
     assert (status, "1 unit " in err) == (0, True)
+
+
+# A product without states
+
+BARE = ("--foon", CASES / "bare-product.txt", "--kitchen", CASES / "bare-kitchen.json", "--default-rate", 1)
+
+
+def test_a_product_without_states_is_made(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_json(capsys, "retrieve", "glass {smoothie}", *BARE)["size"] == 2
+    assert run_json(capsys, "retrieve", "smoothie", *BARE)["size"] == 1
+    for semantics in ("add", "transform", "consume"):
+        found = run_json(capsys, "plan", "glass {smoothie}", *BARE, "--semantics", semantics)
+        assert (found["plan"]["length"], found["plan"]["executable"]) == (2, True)
+    audited = run_json(capsys, "audit", *BARE[1:2], *BARE[2:4])
+    assert "error" not in {finding["severity"] for finding in audited["findings"]}
+
+
+def test_of_the_bare_outputs_of_the_universal_foon_one_is_a_product(
+    universal: Dataset, universal_world: World
+) -> None:
+    """Which the kitchen has, so that nothing else can be made by it."""
+    bare = [
+        (unit.id, number)
+        for unit in universal.foon.units
+        for number in unit.outputs
+        if universal.foon.objects[number].bare
+    ]
+    made = [(unit, number) for unit, number in bare if number in universal_world.units.makes[unit]]
+    assert len(bare) == 230
+    assert [str(universal.foon.objects[number]) for _, number in made] == ["wrapping paper"]
+    assert all(number in universal_world.stock for _, number in made)

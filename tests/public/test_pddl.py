@@ -10,6 +10,7 @@ from foon_asp.io.folder import read_foon
 from foon_asp.model.consumption import Effects
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import ObjectId
+from foon_asp.model.units import Units
 from foon_asp.model.world import World
 from foon_asp.planning.pddl.styles import document
 from foon_asp.planning.pddl.task import planning_task
@@ -32,8 +33,8 @@ def subgraph_files() -> list[str]:
 @pytest.mark.parametrize("name", subgraph_files())
 def test_public_subgraphs_parse(public_data: Path, tmp_path: Path, name: str) -> None:
     foon = read_foon([public_data / "subgraphs" / name]).foon
-    made = {thing for unit in foon.units for thing in unit.outputs if not foon.objects[thing].bare}
-    kitchen = [node for number, node in enumerate(foon.objects) if number not in made]
+    makers = Units(foon, ()).makers
+    kitchen = [node for number, node in enumerate(foon.objects) if number not in makers]
     where = World.of(foon, Kitchen(tuple(kitchen)))
     [last] = foon.units[-1:]
     goals = foon.marked_goals() or [foon.objects[last.outputs[-1]]]

@@ -1,7 +1,7 @@
 """The best task trees of a small FOON, by trying every set of its units.
 
 Written from the definitions alone: an input is needed unless it is an implied view, an output is made
-unless it is bare. Shares nothing with `foon_asp.units` or the encodings.
+unless it is bare and only listed again. Shares nothing with `foon_asp.units` or the encodings.
 """
 
 from __future__ import annotations
@@ -41,8 +41,13 @@ def _implied(world: World, vessel: ObjectNode, inputs: Sequence[ObjectNode]) -> 
 
 
 def makes(world: World, unit: FunctionalUnit) -> set[ObjectNode]:
-    outputs = [world.foon.objects[number] for number in unit.outputs]
-    return {thing for thing in outputs if thing.states}
+    inputs, outputs = ([world.foon.objects[o] for o in ports] for ports in (unit.inputs, unit.outputs))
+    return made(world, inputs, outputs)
+
+
+def made(world: World, inputs: Sequence[ObjectNode], outputs: Sequence[ObjectNode]) -> set[ObjectNode]:
+    there = {thing.label for thing in inputs} | world.kitchen.utensils
+    return {thing for thing in outputs if thing.states or thing.label not in there}
 
 
 def closure(world: World, units: Iterable[UnitId]) -> tuple[dict[ObjectNode, int], dict[UnitId, int]]:

@@ -24,7 +24,7 @@ READINGS = (
     Case("vocabulary.lp", "it derives nothing", CUT, "needs/2 makes/2 unit/1", ("unit(7)",)),
     Case(
         "units.lp",
-        "an implied view is not needed, a bare output is not made",
+        "an implied view is not needed, a bare output that an input is, too, is not made",
         CUT,
         "needs/2 makes/2",
         ("makes(7,4) needs(7,2) needs(7,3)",),
@@ -44,6 +44,14 @@ READINGS = (
         "needs/2 makes/2",
         ("makes(7,1) needs(7,2) needs(7,3)",),
         constants="loose=1",
+    ),
+    Case(
+        "units.lp",
+        "a bare output is made if it is no utensil, and no input has its label",
+        'object(1..5). label(1,"ice"). state(1,"hard"). label(2,"ice"). label(3,"bowl"). label(4,"juice"). '
+        'label(5,"bowl"). state(5,"cold"). utensil("bowl"). unit(7). input(7,1). output(7,2..5).',
+        "makes/2",
+        ("makes(7,4) makes(7,5)",),
     ),
     Case(
         "units.lp",

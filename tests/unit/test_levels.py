@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from foon_asp.errors import QueryError
+from foon_asp.model.consumption import Effects
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.levels import LEVELS, at_level, project
@@ -76,7 +77,7 @@ def test_the_marks_of_ports_that_are_not_read_go_with_them() -> None:
     knife = builder.object(node("(knife)"))
     marks = (Mark(False), Mark(True), Mark(False), Mark(goal="!"))
     builder.unit("cut", [bowl, onion], [knife, soup], Annotation(marks=marks))
-    kitchen = Kitchen((), frozenset({"bowl"}))
+    kitchen = Kitchen((), frozenset({"bowl", "knife"}))
     (unit,) = World.of(builder.build(), kitchen, level=2).foon.units
     assert unit.annotation.marks == (Mark(True), Mark(goal="!"))
 
@@ -103,7 +104,8 @@ def test_what_is_needed_is_read_before_contents_are_gone() -> None:
 
 def test_what_is_made_is_read_before_states_are_gone() -> None:
     """On level 1 everything is bare: the clean knife is made, the knife that is listed again is not."""
-    full = world(["a -cut-> b + (knife)", "(fork) -wash-> fork[clean] + b"], "a + (fork)")
+    units = ["a -cut-> b + (knife)", "(fork) -wash-> fork[clean] + b"]
+    full = world(units, "a + (fork)", utensils=["knife"])
     view = on(1, full)
     made = [{view.node(thing).label for thing in makes} for makes in view.units.makes]
     assert made == [{"b"}, {"fork", "b"}]
@@ -125,5 +127,20 @@ def test_goals_are_found_in_full_and_as_they_are_shown() -> None:
 
 
 def test_labels_only_makes_bare_outputs() -> None:
-    assert Units(foon("a -cut-> (b)"), ()).makes == [()]
-    assert Units(foon("a -cut-> (b)"), (), labels_only=True).makes == [(1,)]
+    listed = foon("(b) + a -cut-> (b) + (c) + (d)")
+    assert Units(listed, ["d"]).makes == [(2,)]
+    assert Units(listed, ["d"], labels_only=True).makes == [(0, 2, 3)]
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_product_without_states_is_made_and_used_up(level: int) -> None:
+    """On level 3; below, what has no state stands for a tool, as it always did."""
+    full = world(["a -blend-> (b)", "(b) + (knife) -pour-> c", "(b) + (knife) -top-> d"], "a + (knife)")
+    view = on(level, full)
+    assert all(unit in view.closure.executable for unit in view.foon.units.ids)
+    effects = Effects(view, "consume")
+    assert [[str(view.node(gone)) for gone in effects.deletes(unit)] for unit in view.foon.units.ids] == [
+        [],
+        ["b"] if level == 3 else [],
+        ["b"] if level == 3 else [],
+    ]
