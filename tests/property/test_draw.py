@@ -22,7 +22,7 @@ from foon_asp.draw.units import Drawn, Scene, drawn
 from foon_asp.draw.words import video_url
 from foon_asp.model.foon import Foon
 from foon_asp.model.kitchen import Kitchen
-from foon_asp.model.node import Annotation, FunctionalUnit, Source, UnitId
+from foon_asp.model.node import Annotation, FunctionalUnit, Interval, Source, UnitId
 from foon_asp.model.world import World
 from support.drawn_foons import foons
 from support.pictures import SVG
@@ -218,5 +218,6 @@ def _needs(world: World, unit: UnitId) -> set[str]:
     ],
 )
 def test_only_addresses_of_the_web_are_links(video: str, start: float | None, url: str) -> None:
-    note = Annotation((Source("a.txt", 1, video),), start=start)
+    times = () if start is None else (Interval(start),)
+    note = Annotation((Source("a.txt", 1, video),), times=times)
     assert video_url(FunctionalUnit(UnitId(0), "mix", (), (), note)) == url
