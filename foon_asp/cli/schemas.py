@@ -21,7 +21,7 @@ from foon_asp.audit.wire import AuditJson, StatisticsJson
 from foon_asp.io import atomic
 from foon_asp.io.object_wire import ObjectJson
 from foon_asp.io.wire import FEW, dumps
-from foon_asp.planning.wire import EngineJson, PlanAnswerJson, PlanJson
+from foon_asp.planning.wire import EngineJson, NamedPlanJson, PlanAnswerJson, PlanJson
 from foon_asp.query.wire import NodeJson, QueryJson
 from foon_asp.retrieval.check_wire import CheckJson
 from foon_asp.retrieval.consolidate_wire import ConsolidationJson
@@ -89,7 +89,12 @@ DECLARED = {
         "are known. With --human, the likeliest tree for 0, 1, 2, … human steps.",
     ),
     "consolidate": Declared("foon-asp consolidate --format json", (ConsolidationJson,)),
-    "decode": Declared("foon-asp pddl decode --format json", (PlanJson,)),
+    "decode": Declared(
+        "foon-asp pddl decode --format json",
+        (PlanJson, NamedPlanJson),
+        "Units in the order of execution; with what names.json says of them alone where nobody has named the "
+        "FOON of the export.",
+    ),
     "engines": Declared(
         "foon-asp engines --format json", (Annotated[list[EngineJson], FEW],), "The planning engines."
     ),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from foon_asp.io.object_wire import ObjectJson, UnitJson, object_to_json
@@ -10,8 +10,10 @@ from foon_asp.io.wire import FEW, Amount, Count, JsonObject, LimitName, Place, T
 
 if TYPE_CHECKING:
     # The answers import this module, to write themselves.
+    from foon_asp.model.node import UnitId
     from foon_asp.planning.answer import PlanAnswer
     from foon_asp.planning.engines import Engine
+    from foon_asp.planning.pddl.names import ListedUnit
     from foon_asp.planning.plan import Plan
 
 Semantics = Annotated[
@@ -62,6 +64,31 @@ def plan_json(plan: Plan) -> PlanJson:
         ],
         missing=[object_to_json(node) for node in plan.replay.missing],
     )
+
+
+class NamedUnitJson(JsonObject):
+    """A functional unit of a plan, as names.json has it."""
+
+    id: Annotated[Count, means("Its place among the distinct units of the FOON of the export, from 0.")]
+    motion: Annotated[Text, means("The motion.")]
+    source: Annotated[str, means("Its file and line as `file:line`; may be empty.")]
+
+
+class NamedPlanJson(JsonObject):
+    """Units in the order of execution, without their FOON: they were not replayed."""
+
+    semantics: Semantics
+    executable: Annotated[None, means("Nobody knows without the FOON.")]
+    length: Annotated[Count, means("How many units are done, those that come again each time.")]
+    units: Annotated[list[NamedUnitJson], means("The functional units in the order of execution.")]
+
+
+def named_plan_json(
+    units: Sequence[UnitId], listed: Mapping[UnitId, ListedUnit], semantics: str
+) -> NamedPlanJson:
+    """Return what `pddl decode` writes where the FOON of the export is not at hand."""
+    named = [NamedUnitJson(unit, listed[unit].motion, listed[unit].source) for unit in units]
+    return NamedPlanJson(word(semantics), None, len(named), named)
 
 
 class PlanAnswerJson(JsonObject):

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from foon_asp.model.consumption import Effects
-from foon_asp.model.node import ObjectId
+from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.model.supply import Supply
 from foon_asp.planning.answer import PlanAnswer
+from foon_asp.planning.pddl.names import ListedUnit
 from foon_asp.planning.plan import Plan
 from foon_asp.render.proof import proof_text
 from foon_asp.render.tree import failure_text, head_line, port_lines
@@ -50,6 +53,15 @@ def plan_text(plan: Plan, effects: Effects) -> str:
     if not plan.executable:
         lines.append(f"CANNOT BE EXECUTED under '{plan.semantics}': {failure_text(plan.replay)}")
     return "".join(f"{line}\n" for line in lines)
+
+
+def named_plan_text(units: Sequence[UnitId], listed: Mapping[UnitId, ListedUnit]) -> str:
+    """Write the steps of a plan of which there are only names, without what they take and make."""
+    lines = []
+    for place, unit in enumerate(units, 1):
+        where = ", ".join(filter(None, (listed[unit].source, f"unit {unit}")))
+        lines.append(f"{place:3}. {listed[unit].motion}  [{where}]\n")
+    return "".join(lines)
 
 
 def costs_text(plan: Plan, cost: str = "") -> str:

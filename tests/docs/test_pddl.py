@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+from foon_asp.planning.pddl.plan_lines import DIALECTS
 from foon_asp.planning.pddl.styles import STYLES
 from foon_asp.planning.pddl.write import domain_text, problem_text
 from support import small_foons
@@ -37,3 +38,9 @@ def test_the_examples_of_the_documentation() -> None:
     assert len(blocks) >= 4
     for block in blocks:
         assert any(block in text for text in texts), block
+
+
+def test_every_dialect_of_plans_is_documented() -> None:
+    text = (ROOT / "docs" / "pddl.md").read_text(encoding="utf-8")
+    for name, line in DIALECTS.items():
+        assert f"| {name} | `{line.strip()}` |" in text

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 
 from foon_asp.model.consumption import SEMANTICS
 from foon_asp.model.node import ObjectNode
@@ -52,11 +51,3 @@ def test_no_plan_is_cheaper_than_the_proven_one(semantics: str, query: tuple[Wor
         # One is cheapest, the other takes the fewest parallel steps.
         assert len(theirs.plan.units) <= len(ours.plan.units)
         assert ours.plan.makespan <= theirs.plan.makespan
-
-
-@given(st.sampled_from(["time:", "(", "(x", "fry", "()"]))
-def test_lines_that_are_no_steps_are_refused(text: str) -> None:
-    from foon_asp.planning.pddl.plan_file import _LINE
-
-    match = _LINE.fullmatch(text)
-    assert match is None or not match["words"].split()

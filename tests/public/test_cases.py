@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -132,3 +133,39 @@ def test_of_the_bare_outputs_of_the_universal_foon_one_is_a_product(
     assert len(bare) == 230
     assert [str(universal.foon.objects[number]) for _, number in made] == ["wrapping paper"]
     assert all(number in universal_world.stock for _, number in made)
+
+
+# Plans of other planners
+
+
+@pytest.mark.parametrize("name", ["lpg-plan.txt", "up-plan.txt"])
+def test_a_plan_of_another_planner_is_decoded(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, name: str
+) -> None:
+    assert run(capsys, "pddl", "export", "whipped cream", "-o", tmp_path)[0] == 0
+    found = run_json(capsys, "pddl", "decode", CASES / name, "--names", tmp_path / "names.json")
+    assert [unit["id"] for unit in found["units"]] == [45, 46, 47, 48, 49]
+    assert found["executable"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        f"{name}.txt"
+        for name in ("bare_names", "ff", "numbered", "plansys2_terminal", "unified_planning_print")
+    ],
+)
+def test_a_plan_is_decoded_with_its_names_alone(capsys: pytest.CaptureFixture[str], name: str) -> None:
+    names = ("--names", CASES / "plans" / "names.json")
+    status, out, err = run(capsys, "pddl", "decode", CASES / "plans" / name, *names)
+    assert (status, "the plan was not replayed" in err) == (0, True)
+    assert out.splitlines() == [
+        "  1. and  [keywords.txt:2, unit 0]",
+        "  2. 2 fold  [keywords.txt:10, unit 1]",
+    ]
+    found = run_json(capsys, "pddl", "decode", CASES / "plans" / name, *names)
+    assert [unit["motion"] for unit in found["units"]] == ["and", "2 fold"]
+    assert found["executable"] is None
+    given = ("--foon", CASES / "bare-product.txt")
+    status, _, err = run(capsys, "pddl", "decode", CASES / "plans" / name, *names, *given)
+    assert (status, "the FOON or kitchen is not that of this export" in err) == (2, True)

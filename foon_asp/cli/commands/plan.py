@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
+from functools import partial
 
 from foon_asp.cli import options as add
 from foon_asp.cli.inputs import open_world
@@ -12,8 +13,11 @@ from foon_asp.cli.messages import tell
 from foon_asp.cli.output import Reply
 from foon_asp.cli.parser import Parser
 from foon_asp.cli.question import asked_goals
+from foon_asp.errors import QueryError
 from foon_asp.io.text import write_text
 from foon_asp.planning.answer import PlanAnswer
+from foon_asp.planning.pddl.ipc import ipc_text
+from foon_asp.planning.pddl.styles import STYLES
 from foon_asp.planning.plan import Plan
 from foon_asp.planning.planner import plan
 from foon_asp.planning.query import PlanQuery
@@ -35,11 +39,20 @@ def configure(parser: Parser) -> None:
         "--max-steps", type=add.number, metavar="N", help="parallel steps that clingo tries at most"
     )
     add.limits(parser)
-    add.output(parser, "text", "json", "foon")
+    parser.add_argument(
+        "--style", choices=STYLES, help="for --format ipc: the style of the export (default: objects)"
+    )
+    parser.add_argument(
+        "--durative", action="store_true", help="for --format ipc: with times, for an export with --durative"
+    )
+    add.output(parser, "text", "json", "foon", "ipc")
 
 
 def run(options: argparse.Namespace) -> Reply:
     """Plan."""
+    for name in ("style", "durative"):
+        if getattr(options, name) and options.format != "ipc":
+            raise QueryError(f"--{name} is for --format ipc")
     world = open_world(options)
     goals = asked_goals(options, world, "name a GOAL: foon-asp plan GOAL…")
     query = Query(*goals, by=options.by, time_limit=options.time_limit, memory_limit=options.memory_limit)
@@ -48,7 +61,10 @@ def run(options: argparse.Namespace) -> Reply:
     return Reply(
         lambda: answer_text(answer),
         lambda: plan_answer_json(answer),
-        {"foon": lambda: _answer_as_foon(answer)},
+        {
+            "foon": lambda: _written(answer, _as_foon),
+            "ipc": lambda: _written(answer, partial(_as_ipc, options.style or "objects", options.durative)),
+        },
         [answer.status],
     )
 
@@ -65,11 +81,20 @@ def _progress(options: argparse.Namespace) -> Callable[[float], None] | None:
     return show
 
 
-def _answer_as_foon(answer: PlanAnswer) -> str:
+def _written(answer: PlanAnswer, write: Callable[[PlanAnswer, Plan], str]) -> str:
+    """Write the plan of an answer; say it where there is none."""
     if answer.plan is None:
         tell(f"no plan: {answer.reason or answer.status}")
         return ""
-    return plan_as_foon(answer.plan, f"{answer.engine} {answer.semantics}")
+    return write(answer, answer.plan)
+
+
+def _as_foon(answer: PlanAnswer, plan: Plan) -> str:
+    return plan_as_foon(plan, f"{answer.engine} {answer.semantics}")
+
+
+def _as_ipc(style: str, durative: bool, answer: PlanAnswer, plan: Plan) -> str:
+    return ipc_text(plan, answer.effects, answer.asked.criterion, style, durative=durative)
 
 
 def plan_as_foon(plan: Plan, how: str) -> str:

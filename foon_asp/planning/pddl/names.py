@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
@@ -180,38 +181,86 @@ def _action(world: World, number: UnitId) -> dict[str, Any]:
     return {"unit": number, "motion": unit.motion, "source": source}
 
 
+class OtherFoonError(InputError):
+    """The names are those of another FOON than the one at hand."""
+
+
 def read_names(path: Path, world: World) -> Names:
-    """Read names.json; raise `InputError` if it is none, or was written for another FOON or kitchen."""
+    """Read names.json; raise `InputError` if it is none, or was written for another FOON or kitchen.
+
+    It is an `OtherFoonError` if the FOON is another one, and perhaps the kitchen, too.
+    """
+    data = _read(path)
+    try:
+        names = _names(data, world)
+    except _OtherDataError as error:
+        raise OtherFoonError(path, None, _other("FOON or kitchen", f": {error}"), _NAME_IT) from None
+    except (KeyError, TypeError, ValueError) as error:
+        raise _unreadable(path, error) from None
+    for kind, here in _origin(names, world).items():
+        # Files of before have no hash.
+        if data.get(kind, here) != here:
+            if kind == "foon":
+                raise OtherFoonError(path, None, _other("FOON"), _NAME_IT)
+            raise InputError(path, None, _other(kind), _NAME_IT)
+    return names
+
+
+@dataclass(frozen=True, slots=True)
+class ListedUnit:
+    """What names.json says of a unit: its motion, and its place in a file."""
+
+    motion: str
+    source: str
+
+
+def read_names_alone(path: Path) -> tuple[Names, dict[UnitId, ListedUnit]]:
+    """Read names.json without the FOON that it is about, and what it says of the units.
+
+    Raises `InputError` if it is none. Nothing can be replayed with such names.
+    """
+    data = _read(path)
+    try:
+        names = _names(data, None)
+        units = {
+            _number(item["unit"]): ListedUnit(_text(item["motion"]), _text(item.get("source", "")))
+            for _, item in _items(data, "actions")
+        }
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise _unreadable(path, error) from None
+    return names, {UnitId(number): unit for number, unit in units.items()}
+
+
+def _read(path: Path) -> dict[str, Any]:
     data = parse_json(read_string(path), path)
     if not isinstance(data, dict) or data.get("format") != _FORMAT:
         raise InputError(path, None, "these are no names of a PDDL export", "name the names.json of one")
     if data.get("version") != VERSION:
         problem = f"version {data.get('version')!r}, but this program reads version {VERSION}"
         raise InputError(path, None, problem, "export again")
-    try:
-        names = _names(data, world)
-    except _OtherDataError as error:
-        raise _other(path, "FOON or kitchen", f": {error}") from None
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(path, None, f"not readable as names: {error}", "export again") from None
-    for kind, here in _origin(names, world).items():
-        # Files of before have no hash.
-        if data.get(kind, here) != here:
-            raise _other(path, "FOON" if kind == "foon" else "kitchen")
-    return names
+    return data
+
+
+def _unreadable(path: Path, error: Exception) -> InputError:
+    return InputError(path, None, f"not readable as names: {error}", "export again")
 
 
 class _OtherDataError(ValueError):
     """What a name stands for is another thing here."""
 
 
-def _other(path: Path, kind: str, which: str = "") -> InputError:
-    advice = "name that one, or export again"
-    return InputError(path, None, f"the {kind} is not that of this export{which}", advice)
+_NAME_IT = "name that one, or export again"
 
 
-def _names(data: dict[str, Any], world: World) -> Names:
-    """Read the tables of names.json; raise `KeyError`, `TypeError` or `ValueError` with what is wrong."""
+def _other(kind: str, which: str = "") -> str:
+    return f"the {kind} is not that of this export{which}"
+
+
+def _names(data: dict[str, Any], world: World | None) -> Names:
+    """Read the tables of names.json; raise `KeyError`, `TypeError` or `ValueError` with what is wrong.
+
+    Without a world it is not known what the ids stand for.
+    """
     objects = {name: _object_id(item, world) for name, item in _items(data, "objects")}
     units = {name: _unit_id(item, world) for name, item in _items(data, "actions")}
     helpers = {name: _text(words) for name, words in _items(data, "helpers")}
@@ -248,13 +297,15 @@ def _text(value: object) -> str:
     return value
 
 
-def _number(value: object, below: int) -> int:
+def _number(value: object, below: float = math.inf) -> int:
     if type(value) is not int or not 0 <= value < below:
         raise _OtherDataError(f"the id {value!r} is not of this FOON")
     return value
 
 
-def _object_id(item: Any, world: World) -> ObjectId:
+def _object_id(item: Any, world: World | None) -> ObjectId:
+    if world is None:
+        return ObjectId(_number(item["id"]))
     object_id = ObjectId(_number(item["id"], len(world.ids)))
     if item["text"] != str(world.node(object_id)):
         raise _OtherDataError(
@@ -263,7 +314,9 @@ def _object_id(item: Any, world: World) -> ObjectId:
     return object_id
 
 
-def _unit_id(item: Any, world: World) -> UnitId:
+def _unit_id(item: Any, world: World | None) -> UnitId:
+    if world is None:
+        return UnitId(_number(item["unit"]))
     unit = UnitId(_number(item["unit"], len(world.foon.units)))
     if item["motion"] != world.foon.units[unit].motion:
         raise _OtherDataError(

@@ -13,7 +13,7 @@ from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.model.reachability import backward
 from foon_asp.model.world import World
 from foon_asp.planning.pddl.names import DomainNames, Names, plain
-from foon_asp.planning.plan import held_in_order
+from foon_asp.planning.plan import Plan, held_in_order
 from foon_asp.planning.prices import Prices
 from foon_asp.query.constraints import FREE
 from foon_asp.query.objective import Criterion
@@ -343,6 +343,21 @@ def executed_steps(task: Task, effects: Effects, units: Iterable[UnitId]) -> lis
         if fact not in true:
             execute(helpers.get(fact, ()))
     return done
+
+
+def all_steps(plan: Plan, task: Task, effects: Effects) -> list[Step]:
+    """Return the steps that execute a plan, with the helpers that it takes.
+
+    Raises `QueryError` if it cannot be executed in this task.
+    """
+    steps = executed_steps(task, effects, plan.units)
+    done = [step.unit for step in steps if step.unit is not None]
+    if done != list(plan.units):
+        raise QueryError(
+            f"step {len(done) + 1} of the plan cannot be executed in this export;"
+            " export the same kitchen, semantics and units"
+        )
+    return steps
 
 
 def step_orderings(steps: Sequence[Step], initially: Iterable[Fact]) -> list[tuple[int, int]]:

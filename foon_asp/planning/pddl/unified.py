@@ -14,7 +14,7 @@ from foon_asp.model.consumption import Effects
 from foon_asp.model.node import ObjectId
 from foon_asp.planning.pddl.names import Names
 from foon_asp.planning.pddl.styles import Atom, Document
-from foon_asp.planning.pddl.task import Fact, Step, executed_steps, step_orderings
+from foon_asp.planning.pddl.task import Fact, Step, all_steps, step_orderings
 from foon_asp.planning.plan import Plan
 
 if TYPE_CHECKING:
@@ -148,7 +148,7 @@ def to_sequential_plan(plan: Plan, target: Unified, effects: Effects) -> up_plan
     """Return a plan as unified_planning has it, with the helpers that it needs: fees, objects taken out."""
     from unified_planning.plans import SequentialPlan
 
-    steps = _all_steps(plan, target, effects)
+    steps = all_steps(plan, target.document.task, effects)
     return SequentialPlan([target.instance(step) for step in steps], target.problem.environment)
 
 
@@ -156,24 +156,13 @@ def to_partial_order(plan: Plan, target: Unified, effects: Effects) -> up_plans.
     """Return a plan, helpers included, in which only those steps are ordered that may not be swapped."""
     from unified_planning.plans import PartialOrderPlan
 
-    steps = _all_steps(plan, target, effects)
+    steps = all_steps(plan, target.document.task, effects)
     # Equal steps are different instances: a unit may come again.
     instances = [target.instance(step) for step in steps]
     after: dict[Any, list[Any]] = {instance: [] for instance in instances}
     for first, second in step_orderings(steps, target.document.task.initially):
         after[instances[first]].append(instances[second])
     return PartialOrderPlan(after, target.problem.environment)
-
-
-def _all_steps(plan: Plan, target: Unified, effects: Effects) -> list[Step]:
-    steps = executed_steps(target.document.task, effects, plan.units)
-    done = [step.unit for step in steps if step.unit is not None]
-    if done != list(plan.units):
-        raise QueryError(
-            f"step {len(done) + 1} of the plan cannot be executed in this export;"
-            " export the same kitchen, semantics and units"
-        )
-    return steps
 
 
 def from_unified_plan(
