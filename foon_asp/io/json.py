@@ -159,7 +159,7 @@ class JsonReader:
     def _read_times(self, note: dict[str, object]) -> tuple[Interval, ...]:
         """Read start and end, or all of several intervals."""
         listed = note.get("times")
-        if listed is None:
+        if says_none(listed, self._report):
             return known_times([self._read_interval(note)], self._report)
         found = []
         for each in listed if isinstance(listed, list) else [listed]:

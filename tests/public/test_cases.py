@@ -14,7 +14,7 @@ from foon_asp.io.trees import TreeBuilder
 from foon_asp.model.world import World
 from support.cli import run, run_json
 from support.paths import PUBLIC_DATA
-from support.reading_checks import check_storing, check_writing, notes, read
+from support.reading_checks import check_mending, check_storing, check_writing, notes, read
 
 CASES = PUBLIC_DATA.parent / "cases"
 pytestmark = pytest.mark.skipif(not CASES.exists(), reason=f"no {CASES}")
@@ -48,6 +48,9 @@ def test_what_is_read_and_found(name: str, objects: set[str], code: str) -> None
     files = read((CASES / name).read_bytes(), name)
     assert set(map(str, files.foon.objects)) == objects
     assert code in {finding.code for finding in files.findings}
+    if name.endswith(".txt"):
+        mended = read(check_mending((CASES / name).read_text(), files))
+        assert all(not finding.mend for finding in mended.findings)
 
 
 @pytest.mark.parametrize(

@@ -130,3 +130,14 @@ def test_nothing_is_made_from_nothing() -> None:
     with pytest.warns(fa.FoonWarning, match="a unit without inputs is left out"):
         foon = fa.read('[{"motion_node": "serve", "output_nodes": [{"label": "cake"}]}]')
     assert not foon.units
+
+
+def test_older_words_stay_where_they_are_to(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    old = "O\tbowl\nS\tingredients inside\t{x}\nM\tpick + place\nO\tx\nS\tno state\n//\n"
+    now = "O\tbowl\nS\tcontains\t{x}\nM\tpick-and-place\nO\tx\n//\n"
+    (tmp_path / "old.txt").write_text("//\n" + old)
+    convert = ("convert", tmp_path / "old.txt", "-o", "-", "--to", "text")
+    assert run(capsys, *convert)[1] == "//\n" + now
+    assert run(capsys, *convert, "--vocabulary", "as-written")[1] == "//\n" + old
+    world = fa.load(foon=[tmp_path / "old.txt"], vocabulary="as-written")
+    assert world.foon.motions == ["pick + place"]
