@@ -25,6 +25,7 @@ NOT_RUN = {
     "docs/pddl.md": ["PDDL, which tests look up in an export"] * 5,
     "docs/planning.md": ["takes ten minutes and other planners"],
     "docs/reliability.md": ["takes five minutes"],
+    "docs/robots.md": ["PDDL, which tests look up in an export"],
     "docs/scale.md": ["takes Spark"],
     "benchmarks/README.md": ["takes forty minutes", "takes a minute and the public data"],
 }

@@ -7,6 +7,7 @@ import re
 import pytest
 
 from foon_asp.planning.pddl.plan_lines import DIALECTS
+from foon_asp.planning.pddl.plansys2 import for_plansys2
 from foon_asp.planning.pddl.styles import STYLES
 from foon_asp.planning.pddl.write import domain_text, problem_text
 from support import small_foons
@@ -21,7 +22,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:unclosed file:ResourceWarning")
 
 
 def test_the_examples_of_the_documentation() -> None:
-    """Every block of PDDL in docs/pddl.md stands so in an export of the same small FOON."""
+    """Every block of PDDL in docs/pddl.md and docs/robots.md stands so in an export of a small FOON."""
     where = small_foons.world(
         ["onion[whole] + (knife) -chop-> onion[chopped]"], "onion[whole] + (knife)", utensils=["knife"]
     )
@@ -34,7 +35,10 @@ def test_the_examples_of_the_documentation() -> None:
                     where, [small_foons.node("onion[chopped]")], "consume", level, style, durative
                 )
                 texts.append(domain_text(written) + problem_text(written))
-    blocks = re.findall(r"```pddl\n(.*?)```", (ROOT / "docs" / "pddl.md").read_text(), re.DOTALL)
+                if style == "lifted" and level is None:
+                    texts.append(domain_text(for_plansys2(written)))
+    pages = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("pddl.md", "robots.md"))
+    blocks = re.findall(r"```pddl\n(.*?)```", pages, re.DOTALL)
     assert len(blocks) >= 4
     for block in blocks:
         assert any(block in text for text in texts), block

@@ -12,6 +12,7 @@ from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import ObjectId
 from foon_asp.model.units import Units
 from foon_asp.model.world import World
+from foon_asp.planning.pddl.plansys2 import for_plansys2
 from foon_asp.planning.pddl.styles import document
 from foon_asp.planning.pddl.task import planning_task
 from foon_asp.query.problem import Problem
@@ -55,3 +56,9 @@ def test_public_descriptions_match_one_object_only(universal_world: World) -> No
     problem = Problem(universal_world, (ObjectId(0),), whole=True)
     written = document(planning_task(problem, Effects(universal_world, "consume")), "lifted")
     assert_descriptions_match_one_object_only(written)
+
+
+def test_public_goals_are_written_for_plansys2(universal_world: World) -> None:
+    for goal in universal_world.goals:
+        written = exported(universal_world, [goal], style="lifted", durative=True)
+        assert len(for_plansys2(written).actions) == len(written.actions)

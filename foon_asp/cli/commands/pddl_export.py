@@ -10,7 +10,8 @@ from foon_asp.cli.output import Reply, check_targets, folder_to_write
 from foon_asp.cli.parser import Parser
 from foon_asp.cli.question import asked_goals
 from foon_asp.model.consumption import Effects
-from foon_asp.planning.pddl.styles import document
+from foon_asp.planning.pddl.plansys2 import for_plansys2
+from foon_asp.planning.pddl.styles import STYLES, document
 from foon_asp.planning.pddl.task import planning_task
 from foon_asp.planning.pddl.write import FILES, export
 from foon_asp.query.goals import find_object
@@ -25,14 +26,19 @@ def configure(parser: Parser) -> None:
     add.goal(parser, "*", add.OR_MARKED)
     parser.add_argument(
         "--style",
-        choices=("objects", "lifted"),
-        default="objects",
+        choices=STYLES,
         help="objects (default): a fluent for each object, an action for each unit; lifted: typed, readable",
     )
     add.semantics(parser)
     add.criterion(parser)
     parser.add_argument(
         "--durative", action="store_true", help="durative actions of PDDL 2.1, with annotated times"
+    )
+    parser.add_argument(
+        "--dialect",
+        choices=("standard", "plansys2"),
+        default="standard",
+        help="plansys2: lifted, durative, with names that PlanSys2 reads (default: standard)",
     )
     add.whole(parser)
     add.files(parser, "DIR", f"a folder for {', '.join(FILES)}")
@@ -48,6 +54,9 @@ def run(options: argparse.Namespace) -> Reply:
     problem = Problem(world, goals, whole=options.whole)
     criterion = None if options.by is None else Criterion.parse(options.by)
     task = planning_task(problem, Effects(world, options.semantics), criterion)
-    written = document(task, options.style, options.durative)
+    if options.dialect == "plansys2":
+        written = for_plansys2(document(task, options.style or "lifted", durative=True))
+    else:
+        written = document(task, options.style or "objects", options.durative)
     export(written, folder)
     return Reply(summary=f"{folder}/: {', '.join(FILES)} ({counted(len(written.actions), 'action')})")
