@@ -14,7 +14,6 @@ from foon_asp.model.node import ObjectId, ObjectNode, UnitId
 from foon_asp.model.world import World
 from foon_asp.query.method import Method
 from foon_asp.query.query import Query
-from foon_asp.retrieval.judge import raw_objects
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.suggest import find_dishes
 from foon_asp.retrieval.tree import TaskTree
@@ -108,7 +107,13 @@ def overview_picture(world: World) -> Picture:
     go into the same dishes, one after the other, the last one stands for all.
     """
     if not world.stock:
-        world = world.with_stock(map(world.node, raw_objects(world, "add", world.foon.units.ids)))
+        world = World.of(
+            world.foon,
+            replace(world.kitchen, stated=False),
+            strict=world.strict,
+            match_relations=world.match_relations,
+            goals=world.goals,
+        )
     trees, left_out = _dish_trees(world)
     if not trees:
         raise QueryError(

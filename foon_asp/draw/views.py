@@ -88,7 +88,7 @@ def world_drawing(
 
 def foon_drawing(foon: Foon, around: Named | None = None, hops: int = 1, dark: bool | None = None) -> Drawing:
     """Return a FOON as a picture, or what is around an object of it."""
-    return world_drawing(World.of(foon, Kitchen(())), around, hops, dark)
+    return world_drawing(World.of(foon, Kitchen((), stated=False)), around, hops, dark)
 
 
 def svg_unasked(units: Sized, draw: Callable[[], Drawing]) -> str | None:

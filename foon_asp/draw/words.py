@@ -101,12 +101,13 @@ def _origin(unit: FunctionalUnit) -> Iterator[str]:
         yield f"from {short_source(source.file, source.line)}"
     if source.video:
         yield f"video: {source.video}"
-    if note.start is not None:
-        until = "" if note.end is None else f" to {_clock(note.end)}"
-        yield f"filmed at {_clock(note.start)}{until}"
+    if note.times:
+        yield f"filmed at {', '.join(f'{_clock(each.start)} to {_clock(each.end)}' for each in note.times)}"
 
 
-def _clock(seconds: float) -> str:
+def _clock(seconds: float | None) -> str:
+    if seconds is None:
+        return "?"
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes}:{rest:02}"
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import named_goals, open_world, sources, warn_of_losses
+from foon_asp.cli.inputs import named_goals, open_trees, open_world, sources, warn_of_losses
 from foon_asp.cli.output import STDOUT, Reply
 from foon_asp.cli.parser import Parser
 from foon_asp.cli.question import question
@@ -24,7 +24,7 @@ from foon_asp.draw.picture import Picture
 from foon_asp.draw.trees import plan_picture, tree_picture
 from foon_asp.errors import QueryError
 from foon_asp.io.files import is_store
-from foon_asp.io.trees import STDIN, TreeBuilder, TreeFile, trees_beside
+from foon_asp.io.trees import STDIN
 from foon_asp.limits import LimitReachedError, limited
 from foon_asp.model.world import World
 from foon_asp.planning.planner import plan
@@ -34,7 +34,7 @@ from foon_asp.query.method import Method
 from foon_asp.query.query import Query
 from foon_asp.query.status import Status
 from foon_asp.retrieval.alternatives import pareto_trees
-from foon_asp.retrieval.check import CheckQuery, Checks, check_trees
+from foon_asp.retrieval.check import Check, CheckQuery, check_trees
 from foon_asp.retrieval.explain import explain
 from foon_asp.retrieval.menu import plan_menu
 from foon_asp.retrieval.retrieve import retrieve
@@ -167,10 +167,9 @@ class _Drawn:
             world = self._foon_world()
             return around_picture(world, find_object(world, options.around), options.hops or 1)
         if options.trees and options.show != "foon":
-            files = [] if any(is_store(Path(name)) for name in options.trees) else _read(options)
-            units = sum(len(part) for file in files for part in file.parts)
-            if files and (units <= MOST_UNITS or options.show == "tree"):
-                return side_by_side([check_picture(each) for each in _checks(options, files)])
+            checks = [] if any(is_store(Path(name)) for name in options.trees) else _checks(options)
+            if len(checks):
+                return side_by_side([check_picture(each) for each in checks])
         if options.trees or not (options.goal or options.goals):
             return foon_picture(self._foon_world())
         return self._of_goals()
@@ -242,7 +241,7 @@ class _Drawn:
         options = self.options
         if not goals and _is_file(text):
             options.trees = [text]
-            [*checks] = _checks(options, _read(options))
+            checks = _checks(options, as_trees=True)
             if len(checks) != 1:
                 raise QueryError(f"{text}: there are {len(checks)} trees in it; compare files of one tree")
             return Version.of_check(checks[0])
@@ -261,15 +260,13 @@ def _usual(method: str) -> tuple[str, ...]:
     return ("success",) if method == Method.GREEDY else ()
 
 
-def _read(options: argparse.Namespace) -> list[TreeFile]:
-    return [TreeBuilder().read_file(Path(name)) for name in options.trees]
-
-
-def _checks(options: argparse.Namespace, files: Sequence[TreeFile]) -> Checks:
-    """Judge the trees of some files as `check` does."""
+def _checks(options: argparse.Namespace, *, as_trees: bool = False) -> Sequence[Check]:
+    """Judge the trees of some files as `check` does; none if they have so many units that they are FOONs."""
     known = sources(options).load()
-    trees = trees_beside(known.foon, files)
-    warn_of_losses(options, [each for listing in trees.listings for each in listing.findings])
+    trees = open_trees(options, known.foon)
+    units = sum(len(listing.units) for listing in trees.listings)
+    if units > MOST_UNITS and options.show != "tree" and not as_trees:
+        return ()
     query = CheckQuery(
         known.kitchen if options.kitchen is not None else None,
         known.kitchen.utensils,
