@@ -105,6 +105,10 @@ class Ways:
         self._lock = threading.Lock()
         self._known = Known()
 
+    def __reduce__(self) -> tuple[type[Ways], tuple[Units, Collection[ObjectId], Mapping[UnitId, int]]]:
+        # The lock stays in its process; what is known is soon learnt again.
+        return Ways, (self._reading, self._stock, self._executable)
+
     def to(self, goals: Iterable[ObjectId]) -> Known:
         """Return what is known, with all that leads to goals that the kitchen can make, and does not have."""
         with self._lock:
