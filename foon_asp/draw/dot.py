@@ -7,6 +7,7 @@ from html import escape
 
 from foon_asp.draw.boxes import Box, box
 from foon_asp.draw.colours import LIGHT, Colours, arrow_colour, style
+from foon_asp.draw.legal import legal
 from foon_asp.draw.picture import Edge, Node, Picture, Role, Side
 
 _POINTS = 72
@@ -113,7 +114,7 @@ class _Html(str):
 def _label(size: Box) -> str:
     lines = []
     for line in size.lines:
-        text = escape(line.text, quote=False)
+        text = escape(legal(line.text), quote=False)
         bold = f"<B>{text}</B>" if line.bold else text
         lines.append(f'<FONT POINT-SIZE="{line.size:g}">{bold}</FONT>')
     return _Html("<BR/>".join(lines)) if lines else ""
@@ -131,5 +132,5 @@ def _value(text: str) -> str:
 
 def quoted(text: str) -> str:
     r"""Return a text in quotes, as DOT has it: what Graphviz would read as `\N` is read as it stands."""
-    found = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    found = legal(text).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
     return f'"{found}"'

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from foon_asp import limits
 from foon_asp.draw import words
 from foon_asp.draw.picture import Edge, Node, Picture, Role
-from foon_asp.draw.units import Drawn, Scene, drawn
+from foon_asp.draw.units import Drawn, Scene, drawn, is_tool
 from foon_asp.errors import QueryError
 from foon_asp.model.node import ObjectId, ObjectNode, UnitId
 from foon_asp.model.world import World
@@ -90,9 +90,7 @@ def _around(world: World, centre: ObjectId, hops: int) -> tuple[list[UnitId], in
         found.update(dict.fromkeys(new))
         touched = (number for unit in new for number in (*reading.needs[unit], *reading.makes[unit]))
         fresh = [
-            number
-            for number in dict.fromkeys(touched)
-            if number not in seen and not world.is_tool(world.node(number))
+            number for number in dict.fromkeys(touched) if number not in seen and not is_tool(world, number)
         ]
         seen.update(fresh)
     units = list(found)
@@ -129,7 +127,8 @@ def overview_picture(world: World) -> Picture:
     apart = [goal for goal in trees if goal not in sharing]
     nodes += _apart(world, apart)
     more = f", and {left_out} more" if left_out else ""
-    title = f"{_size(world)}: {len(trees)} dishes{more}, and what they share"
+    sharing_what = "and what they share" if shared else "which share nothing"
+    title = f"{_size(world)}: {len(trees)} dishes{more}, {sharing_what}"
     return Picture(title, f"An overview of {title}.", nodes, edges, sideways=True, gap=_GAP)
 
 
@@ -224,5 +223,5 @@ def _is_food(world: World, number: ObjectId) -> bool:
     """Whether an object is no tool, and no vessel that only shows again what is in it."""
     node = world.node(number)
     if node.label not in world.kitchen.utensils:
-        return not world.is_tool(node)
+        return not is_tool(world, number)
     return len(set(node.contents)) > 1

@@ -7,6 +7,8 @@ from collections.abc import Container, Iterable, Iterator
 from foon_asp.draw.picture import Node, Picture, Role
 from foon_asp.draw.trees import title, tree_picture
 from foon_asp.draw.units import Drawn, Scene, drawn
+from foon_asp.errors import QueryError
+from foon_asp.limits import ended
 from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.model.world import World
 from foon_asp.query.constraints import FREE
@@ -27,10 +29,13 @@ def missing_picture(found: Explanation) -> Picture:
     """Return why there is no task tree for a goal as a picture; where there is one, the tree.
 
     It shows the best tree that there would be if the kitchen had what is missing, and that as missing; the
-    units that go round in a circle, with thick arrows; and what the kitchen has instead.
+    units that go round in a circle, with thick arrows; and what the kitchen has instead. Raises `QueryError`
+    if the time ran out before that was known.
     """
     if found.status in (Status.REACHABLE, Status.LIMIT) and found.answer is not None and found.answer.tree:
         return tree_picture(found.answer.tree)
+    if found.status is Status.LIMIT:
+        raise QueryError(f"why there is no task tree was not found: {ended(found.limit)}")
     if found.status is Status.CONSTRAINED:
         return _constrained(found)
     world, goal = found.world, found.world.id_of(found.goal)

@@ -9,6 +9,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from foon_asp.draw.boxes import FONTS, Box, text_width
 from foon_asp.draw.colours import DARK, DASHES, LIGHT, Style, arrow_colour, style
 from foon_asp.draw.layout import Arrow, Layout, Point, laid_out
+from foon_asp.draw.legal import legal
 from foon_asp.draw.picture import Edge, Node, Picture, Role, Side
 
 _TIP_LENGTH, _TIP_WIDTH = 8.8, 3.4
@@ -46,8 +47,8 @@ class _Svg:
         root = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, "role": "img"})
         root.set("font-family", FONTS)
         if picture.title:
-            SubElement(root, "title").text = picture.title
-        SubElement(root, "desc").text = picture.summary
+            SubElement(root, "title").text = legal(picture.title)
+        SubElement(root, "desc").text = legal(picture.summary)
         if self._follows:
             SubElement(root, "style").text = _followed(picture)
         paper = SubElement(root, "rect", {"width": _n(width), "height": _n(height), "fill": colours.paper})
@@ -56,7 +57,7 @@ class _Svg:
             place = {"x": _n(width / 2), "y": _n(1.6 * _TITLE), "text-anchor": "middle"}
             letters = {"font-size": _n(_TITLE), "font-weight": "bold", "fill": colours.ink}
             head = SubElement(root, "text", {**place, **letters})
-            head.text = picture.title
+            head.text = legal(picture.title)
             self._named(head, "ink")
         shift = {"transform": f"translate({_n((width - layout.width) / 2)} {_n(above)})"}
         group = SubElement(root, "g", shift)
@@ -78,7 +79,7 @@ class _Svg:
         both.set("stroke-width", "2.4" if edge.strong else "1.1")
         self._named(both, _arrow_class(edge))
         if edge.title:
-            SubElement(both, "title").text = edge.title
+            SubElement(both, "title").text = legal(edge.title)
         path = SubElement(both, "path", {"d": _path(arrow.curve)})
         if DASHES[edge.side]:
             path.set("stroke-dasharray", DASHES[edge.side])
@@ -91,7 +92,7 @@ class _Svg:
         look = style(self._colours, node.role, node.side)
         whole = SubElement(group, "g")
         self._named(whole, _class(node))
-        SubElement(whole, "title").text = node.title or node.head
+        SubElement(whole, "title").text = legal(node.title or node.head)
         inside = whole
         if node.url:
             inside = SubElement(whole, "a", {"href": node.url, "target": "_blank", "rel": "noopener"})
@@ -109,7 +110,7 @@ class _Svg:
             text = SubElement(inside, "text", {**spot, "font-size": _n(line.size), "fill": look.ink})
             if line.bold:
                 text.set("font-weight", "bold")
-            text.text = line.text
+            text.text = legal(line.text)
             top += line.height
 
 

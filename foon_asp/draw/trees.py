@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from foon_asp.draw.picture import Picture
+from foon_asp.draw.picture import Node, Picture, Role
 from foon_asp.draw.units import Drawn, Scene, drawn
 from foon_asp.model.consumption import Effects
 from foon_asp.model.node import ObjectId, UnitId
@@ -31,6 +31,9 @@ def tree_picture(tree: TaskTree, marks: Mapping[UnitId, str] | None = None) -> P
         for place, unit in enumerate(tree.units, 1)
     ]
     nodes, edges = drawn(Scene(world, units, tree.goals, world.stock))
+    if tree.replacements:
+        said = tuple(map(str, tree.replacements))
+        nodes.append(Node("n0", Role.NOTE, "replaced", said, title="\n".join(said)))
     return Picture(
         title(world, tree.goals), _summary("task tree", world, tree.goals, len(tree)), nodes, edges
     )

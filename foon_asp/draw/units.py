@@ -71,6 +71,12 @@ def drawn(scene: Scene) -> tuple[list[Node], list[Edge]]:
     return _Drawing(scene).all()
 
 
+def is_tool(world: World, number: ObjectId) -> bool:
+    """Whether an object is a tool. Where nodes are labels alone all are bare, and a utensil is one."""
+    node = world.node(number)
+    return node.label in world.kitchen.utensils if world.labels_only else world.is_tool(node)
+
+
 class _Drawing:
     """Units that are being drawn."""
 
@@ -112,10 +118,7 @@ class _Drawing:
         return not self._is_tool(number)
 
     def _is_tool(self, number: ObjectId) -> bool:
-        node = self._world.node(number)
-        if self._world.labels_only:
-            return node.label in self._world.kitchen.utensils
-        return self._world.is_tool(node)
+        return is_tool(self._world, number)
 
     def _is_stock(self, number: ObjectId) -> bool:
         return self._scene.at_hand is not None and number in self._scene.at_hand
@@ -154,12 +157,13 @@ class _Drawing:
                 gone=gone,
                 lacking=lacking,
             )
+        made_at = None if each.origins is None else each.place
+        wanted = {n for n in makes if (n, made_at) in self._needed or n in self._scene.goals}
         for number in makes:
-            made: _Key = (number, None if each.origins is None else each.place)
-            if made in self._needed or number in self._scene.goals or self._stands_alone(unit, number):
-                role = Role.MADE if made in self._needed or number in self._scene.goals else Role.LEFT
+            if number in wanted or self._stands_alone(unit, number, wanted):
+                role = Role.MADE if number in wanted else Role.LEFT
                 self._note_new(unit, number)
-                head = self._object(made, self._role(number) if self._is_stock(number) else role)
+                head = self._object((number, made_at), self._role(number) if self._is_stock(number) else role)
                 self._edge((key, head), each, f"{_said(each, unit)} → {self._name(number)}", number)
 
     def _note_new(self, unit: FunctionalUnit, number: ObjectId) -> None:
@@ -170,8 +174,11 @@ class _Drawing:
             held = {content for other in before if other.label == node.label for content in other.contents}
             self._new[number] = set(node.contents) - held
 
-    def _stands_alone(self, unit: FunctionalUnit, number: ObjectId) -> bool:
-        """Whether what nothing needs is worth a node: no tool, and no view of something else that is made."""
+    def _stands_alone(self, unit: FunctionalUnit, number: ObjectId, wanted: Collection[ObjectId]) -> bool:
+        """Whether what nothing needs is worth a node: no tool, and no view of something else that is made.
+
+        A vessel is a view of what is in it, and what is in a vessel one of that if it is wanted itself.
+        """
         node = self._world.node(number)
         if number in self._scene.kept:
             return True
@@ -179,7 +186,10 @@ class _Drawing:
             return False
         others = [self._world.node(other) for other in unit.outputs if other != number]
         inside = {other.label for other in others if node.label in _relata(other)}
-        return not (set(node.contents) and set(node.contents) <= inside)
+        if node.contents and set(node.contents) <= inside:
+            return False
+        vessels = (self._world.node(other) for other in wanted)
+        return not any(node.label in each.contents and each.label in _relata(node) for each in vessels)
 
     def _role(self, number: ObjectId) -> Role:
         if number in self._scene.missing:

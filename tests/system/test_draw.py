@@ -198,6 +198,18 @@ def test_what_cannot_be_drawn_is_one_line(
     assert err.count("\n") == 1
 
 
+@pytest.mark.parametrize("flags", [["hummus"], ["--show", "plan"], ["--show", "pareto"]])
+def test_where_there_is_nothing_to_draw_there_is_no_file(
+    capsys: pytest.CaptureFixture[str], folder: Path, flags: list[str]
+) -> None:
+    status, out, err = run(
+        capsys, "draw", "ice", *flags, "--kitchen", "empty.json", "-o", "ice.svg", "--quiet"
+    )
+    assert (status, out, err.count("\n")) == (1, "", 1)
+    assert re.match("foon-asp: no (task tree|plan)", err)
+    assert not (folder / "ice.svg").exists()
+
+
 def _pretend(folder: Path, monkeypatch: pytest.MonkeyPatch, code: str) -> None:
     """Have another pygraphviz found, in this process and those that it starts."""
     (folder / "pygraphviz.py").write_text(code)

@@ -6,10 +6,11 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from foon_asp.cli import options as add
 from foon_asp.cli.inputs import named_goals, open_trees, open_world, sources, warn_of_losses
+from foon_asp.cli.messages import tell
 from foon_asp.cli.output import STDOUT, Reply
 from foon_asp.cli.parser import Parser
 from foon_asp.cli.question import question
@@ -25,21 +26,24 @@ from foon_asp.draw.trees import plan_picture, tree_picture
 from foon_asp.errors import QueryError
 from foon_asp.io.files import is_store
 from foon_asp.io.trees import STDIN
-from foon_asp.limits import LimitReachedError, limited
+from foon_asp.limits import Limit, LimitReachedError, limited
 from foon_asp.model.world import World
+from foon_asp.planning.answer import PlanAnswer
 from foon_asp.planning.planner import plan
 from foon_asp.planning.query import PlanQuery
 from foon_asp.query.goals import find_object
 from foon_asp.query.method import Method
 from foon_asp.query.query import Query
 from foon_asp.query.status import Status
-from foon_asp.retrieval.alternatives import pareto_trees
+from foon_asp.retrieval.alternatives import Alternatives, pareto_trees
+from foon_asp.retrieval.answer import Answer
 from foon_asp.retrieval.check import Check, CheckQuery, check_trees
 from foon_asp.retrieval.explain import explain
 from foon_asp.retrieval.menu import plan_menu
 from foon_asp.retrieval.retrieve import retrieve
-from foon_asp.retrieval.tree import TaskTree
 from foon_asp.values import said
+
+T = TypeVar("T")
 
 _OF_GOALS = ("tree", "plan", "menu", "missing", "pareto")
 _OF_FILES = ("tree", "foon")
@@ -76,6 +80,7 @@ def configure(parser: Parser) -> None:
     add.reference(parser)
     add.semantics(parser)
     add.constraints(parser)
+    add.substitute(parser)
     add.limits(parser, "for all of it")
     add.output(parser)
     parser.add_argument(
@@ -115,7 +120,13 @@ def run(options: argparse.Namespace) -> Reply:
     _check(options)
     drawn = _Drawn(options)
     with limited(options.time_limit, options.memory_limit):
-        picture = drawn.picture()
+        try:
+            picture = drawn.picture()
+        except _NothingError as nothing:
+            # A file that is empty would look like a picture.
+            tell(str(nothing))
+            options.output = STDOUT
+            return Reply(statuses=[nothing.status])
         written = Drawing(picture, True if options.dark else None).written(form)
     options.format = str(form)
     text, data = (None, written) if isinstance(written, bytes) else (written, None)
@@ -147,6 +158,14 @@ def _check(options: argparse.Namespace) -> None:
     known = _OF_FILES if options.trees else _OF_GOALS if goals else ("foon",)
     if options.show is not None and options.show not in known:
         raise QueryError(f"--show {options.show} is not for what is named here; there is {', '.join(known)}")
+
+
+class _NothingError(Exception):
+    """There is nothing to draw; how the question ended says why."""
+
+    def __init__(self, why: str, status: Status) -> None:
+        super().__init__(why)
+        self.status = status
 
 
 @dataclass
@@ -195,26 +214,30 @@ class _Drawn:
         world = open_world(options)
         if show == "menu":
             menu = plan_menu(world, query)
-            self.statuses.append(menu.status)
+            self._found(menu.together.tree, "task tree for all of them together", menu.together)
             return menu_picture(menu)
         if show == "pareto":
             front = pareto_trees(world, query)
-            self.statuses.append(front.status)
+            self._found(front.trees or None, "task tree", front)
             return front_picture(front)
         if show == "tree":
             answer = retrieve(world, query)
-            if answer.status is not Status.UNREACHABLE:
-                return tree_picture(self._tree(answer.tree, answer.status, answer.limit))
+            if answer.status is not Status.UNREACHABLE or options.substitute:
+                return tree_picture(self._found(answer.tree, "task tree", answer))
         found = explain(world, query)
+        if found.status is Status.LIMIT and (found.answer is None or found.answer.tree is None):
+            raise LimitReachedError(found.limit or Limit.TIME)
         self.statuses.append(Status.UNREACHABLE if found.status is Status.CONSTRAINED else found.status)
         return missing_picture(found)
 
-    def _tree(self, tree: TaskTree | None, status: Status, limit: Any) -> TaskTree:
-        """Return a tree that there is; raise `LimitReachedError` if there was no time for one."""
-        if tree is None:
-            raise LimitReachedError(limit)
-        self.statuses.append(status)
-        return tree
+    def _found(self, found: T | None, what: str, answer: Answer | Alternatives | PlanAnswer) -> T:
+        """Return what was found; raise `LimitReachedError` or `_NothingError` if nothing was."""
+        if found is None and answer.status is Status.LIMIT:
+            raise LimitReachedError(answer.limit or Limit.TIME)
+        if found is None:
+            raise _NothingError(f"no {what}: {answer.reason or answer.status}", answer.status)
+        self.statuses.append(answer.status)
+        return found
 
     def _plan(self, world: World) -> Picture:
         options = self.options
@@ -225,10 +248,7 @@ class _Drawn:
             memory_limit=options.memory_limit,
         )
         answer = plan(world, PlanQuery(query, semantics=options.semantics))
-        if answer.plan is None:
-            raise QueryError(f"no plan: {answer.reason or answer.status}")
-        self.statuses.append(answer.status)
-        return plan_picture(answer.plan, answer.effects)
+        return plan_picture(self._found(answer.plan, "plan", answer), answer.effects)
 
     def _comparison(self) -> Picture:
         goals = named_goals(self.options)
@@ -251,9 +271,7 @@ class _Drawn:
         elif goals:
             query = query.replace(by=text)
         answer = retrieve(open_world(options), query)
-        if answer.status is Status.UNREACHABLE:
-            raise QueryError(f"{said(text)}: no task tree: {answer.reason}")
-        return Version.of_tree(text, self._tree(answer.tree, answer.status, answer.limit))
+        return Version.of_tree(text, self._found(answer.tree, f"task tree of {said(text)}", answer))
 
 
 def _usual(method: str) -> tuple[str, ...]:
