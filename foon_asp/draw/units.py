@@ -72,9 +72,11 @@ def drawn(scene: Scene) -> tuple[list[Node], list[Edge]]:
 
 
 def is_tool(world: World, number: ObjectId) -> bool:
-    """Whether an object is a tool. Where nodes are labels alone all are bare, and a utensil is one."""
+    """Whether an object is a tool: a utensil that contains nothing, or what has no states and is not made."""
     node = world.node(number)
-    return node.label in world.kitchen.utensils if world.labels_only else world.is_tool(node)
+    if world.labels_only or number in world.units.makers:
+        return node.label in world.kitchen.utensils and not node.contents
+    return world.is_tool(node)
 
 
 class _Drawing:
