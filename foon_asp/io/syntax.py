@@ -223,8 +223,11 @@ def known_times(times: Sequence[Interval], report: Report = quiet) -> tuple[Inte
     for each in times:
         if each.start is not None and each.end is not None and each.end < each.start:
             report("times-backwards", f"the motion ends ({time_text(each.end)}) before it starts")
-    return tuple(times) if any(each != Interval() for each in times) else ()
+    return tuple(times) if any(each.start is not None or each.end is not None for each in times) else ()
 
+
+_COLUMN = re.compile(r"[0-9:.]+|[A-Za-z]+")
+"""A time or a word for none, and nothing else."""
 
 _BRACKETS = "<>[]()"
 
@@ -240,6 +243,9 @@ def parse_times(fields: Sequence[str], report: Report) -> tuple[tuple[Interval, 
     """
     if not fields:
         return (), 0
+    if len(fields) > 1 and _COLUMN.fullmatch(fields[0]) and _COLUMN.fullmatch(fields[1]):
+        # Most times are written so.
+        return known_times((_interval(fields[:2], report),), report), 2
     first = fields[0].strip(_BRACKETS)
     count = 1 if "," in first or "-" in first.strip("-") or _is_whole(fields) else min(2, len(fields))
     taken = fields[:count]
