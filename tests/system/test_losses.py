@@ -27,6 +27,9 @@ CALLS = {
     "compare": f"compare {READ}",
     "check": "check FOON",
     "check, as what is known": f"check good.txt {READ}",
+    "draw": f"draw {READ}",
+    "draw, of trees": "draw tree.txt --kitchen kitchen.json",
+    "draw, as what is known": f"draw good.txt {READ}",
     "consolidate": "consolidate FOON",
     "query": f"query rules.lp {READ}",
     "batch": f"batch --queries queries.jsonl {READ} --jobs 1 -o answers.jsonl",
@@ -47,7 +50,8 @@ NO_FILES = {"engines", "pddl"}
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Path:
     monkeypatch.chdir(tmp_path)
-    Path("FOON").write_text(FOON)
+    for name in ("FOON", "tree.txt"):
+        Path(name).write_text(FOON)
     Path("good.txt").write_text("O\ta\nS\tx\nM\tcut\nO\ta\nS\ty\n//\n")
     Path("kitchen.json").write_text('[{"label": "a", "states": ["x"]}]')
     Path("queries.jsonl").write_text('{"goal": "a [y]"}\n')

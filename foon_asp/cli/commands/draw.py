@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import named_goals, open_trees, open_world, sources, warn_of_losses
+from foon_asp.cli.inputs import load_data, named_goals, open_trees, open_world
 from foon_asp.cli.messages import tell
 from foon_asp.cli.output import STDOUT, Reply
 from foon_asp.cli.parser import Parser
@@ -199,9 +199,7 @@ class _Drawn:
         if not options.trees:
             return open_world(options)
         options.files = options.trees
-        dataset = sources(options).load()
-        warn_of_losses(options, dataset.findings)
-        return dataset.world()
+        return load_data(options).world()
 
     def _of_goals(self) -> Picture:
         options, goals = self.options, named_goals(self.options)
@@ -280,7 +278,7 @@ def _usual(method: str) -> tuple[str, ...]:
 
 def _checks(options: argparse.Namespace, *, as_trees: bool = False) -> Sequence[Check]:
     """Judge the trees of some files as `check` does; none if they have so many units that they are FOONs."""
-    known = sources(options).load()
+    known = load_data(options)
     trees = open_trees(options, known.foon)
     units = sum(len(listing.units) for listing in trees.listings)
     if units > MOST_UNITS and options.show != "tree" and not as_trees:
