@@ -198,14 +198,15 @@ def _timed(took: dict[str, Any], name: str, action: Callable[[], Any]) -> Any:
 
 def _open_domain(folder: Path, took: dict[str, Any]) -> Any:
     from foon_asp.io.folder import read_foon
-    from foon_asp.io.kitchen import read_labels, read_rates, read_stock
-    from foon_asp.model.kitchen import Kitchen
+    from foon_asp.io.kitchen import KitchenFiles
     from foon_asp.model.world import World
 
     def look() -> World:
-        stock = tuple(read_stock(folder / "kitchen.json"))
-        utensils = read_labels(folder / "utensils.txt")
-        world = World.of(files.foon, Kitchen(stock, utensils, read_rates(folder / "motion.txt")))
+        kitchen, utensils, rates = (
+            str(folder / name) for name in ("kitchen.json", "utensils.txt", "motion.txt")
+        )
+        beside = KitchenFiles(kitchen, utensils, rates)
+        world = World.of(files.foon, beside.read(files.foon)[0])
         assert world.units is not None
         return world
 
@@ -224,12 +225,13 @@ def _open(folder: Path, _: argparse.Namespace) -> Iterator[dict[str, Any]]:
 
 def _query(folder: Path, options: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """Yield a row for each goal that can be made, or for so many of them, spread evenly."""
-    from foon_asp.io.kitchen import read_objects
+    from foon_asp.io.kitchen import read_goals
     from foon_asp.query.problem import Problem
 
     world = _open_domain(folder, {})
     rounds = world.closure.available
-    goals = [goal for goal in read_objects(folder / "goal_nodes.json") if world.id_of(goal) in rounds]
+    listed, _ = read_goals(str(folder / "goal_nodes.json"), world.foon)
+    goals = [goal for goal in listed if world.id_of(goal) in rounds]
     count = min(options.goals, len(goals))
     # The first question builds what all share.
     _ask(world, min(goals, key=lambda goal: rounds[world.id_of(goal)]), options.limit)

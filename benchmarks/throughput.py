@@ -27,7 +27,6 @@ from machine import DATA, RESULTS, Machine
 from msgspec import to_builtins
 
 from foon_asp.io.folder import load
-from foon_asp.io.kitchen import read_objects
 from foon_asp.io.object_wire import object_to_json
 
 PUBLIC = "universal FOON"
@@ -127,9 +126,7 @@ def main() -> None:
         if not store.exists():
             command = [sys.executable, "-m", "foon_asp", "compile", str(folder / "FOON.txt")]
             subprocess.run([*command, "-o", str(store)], check=True)
-        goals = (
-            to_builtins([object_to_json(goal) for goal in read_objects(folder / "goal_nodes.json")]) * AGAIN
-        )
+        goals = json.loads((folder / "goal_nodes.json").read_text(encoding="utf-8")) * AGAIN
         name = f"generated, `random`, seed {SEED}"
         rates += measure(name, options.units, goals, ["--data", str(folder), "--foon", str(store)])
     said = f"python benchmarks/throughput.py --units {options.units}"

@@ -15,10 +15,10 @@ from types import ModuleType
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 from foon_asp.errors import FoonWarning, InputError, QueryError
-from foon_asp.io.costs import read_costs
 from foon_asp.io.findings import Finding, Severity
 from foon_asp.io.folder import Dataset, SourceKeys
 from foon_asp.io.folder import load as load_dataset
+from foon_asp.io.motions import read_costs
 from foon_asp.io.open import FoonReader
 from foon_asp.io.transitions import Orders, read_orders, stated_orders
 from foon_asp.io.trees import TreeBuilder, TreeFile, trees_beside

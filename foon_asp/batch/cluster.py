@@ -265,11 +265,11 @@ def _moved(sources: Sources, folder: Path) -> Sources:
         sources,
         folder=str(beside),
         foon=foon,
-        kitchen=here.get("kitchen.json"),
-        rates=here.get("motion.txt"),
-        costs=here.get("motion_cost.json"),
-        utensils=here.get("utensils.txt"),
-        goals=here.get("goal_nodes.json"),
+        kitchen=here.get("kitchen"),
+        rates=here.get("rates"),
+        costs=here.get("costs"),
+        utensils=here.get("utensils"),
+        goals=here.get("goals"),
         shown=tuple(zip(foon, sources.foon, strict=True)),
     )
 

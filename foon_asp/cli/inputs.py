@@ -9,12 +9,12 @@ from pathlib import Path
 from foon_asp.cli.messages import note, shown, warn
 from foon_asp.cli.unknown_words import warn_of_unknown_words
 from foon_asp.errors import QueryError
-from foon_asp.io.findings import Finding, Severity
+from foon_asp.io.findings import CUT_OFF, OF_WHOLE_FILES, Finding, Severity
 from foon_asp.io.folder import Dataset, Sources, foon_files, read_foon
-from foon_asp.io.kitchen import read_objects
+from foon_asp.io.listed import read_listed
 from foon_asp.io.open import FoonFiles
 from foon_asp.io.trees import STDIN, TreeBuilder, Trees, trees_beside
-from foon_asp.io.unknown_words import nearest
+from foon_asp.io.unknown_words import labels_alone, nearest
 from foon_asp.model.foon import Foon
 from foon_asp.model.node import ObjectNode
 from foon_asp.model.world import World
@@ -83,14 +83,14 @@ def open_foon(options: argparse.Namespace, paths: Sequence[Path], *, repeats: bo
     With `repeats` a unit is kept as often as it stands there.
     """
     files = read_foon(paths, options.strict_format, options.vocabulary, repeats=repeats)
-    warn_of_losses(options, files.findings)
+    warn_of_findings(options, files.findings)
     return files
 
 
 def open_trees(options: argparse.Namespace, known: Foon) -> Trees:
     """Read the files of trees beside a FOON that is known, and warn of what of them is lost."""
     files = [TreeBuilder(options.vocabulary).read_file(Path(name)) for name in options.trees]
-    warn_of_losses(options, [finding for file in files for finding in file.findings])
+    warn_of_findings(options, [finding for file in files for finding in file.findings])
     return trees_beside(known, files)
 
 
@@ -102,7 +102,7 @@ def open_world(options: argparse.Namespace) -> World:
 def load_data(options: argparse.Namespace) -> Dataset:
     """Read the data, and warn of what of them is lost."""
     dataset = sources(options).load()
-    warn_of_losses(options, dataset.findings)
+    warn_of_findings(options, dataset.findings, dataset.sources.beside.values())
     return dataset
 
 
@@ -116,6 +116,7 @@ def open_data(options: argparse.Namespace) -> tuple[Dataset, World]:
     if len(world.strangers) > count:
         warn(options, f"and {len(world.strangers) - count} more objects that the FOON does not know")
     warn_of_unknown_words(options, dataset, world.full)
+    tell_labels(options, dataset, world.full)
     if not dataset.kitchen.stated:
         note_kitchen(options, world.full)
     elif not world.kitchen.objects:
@@ -150,16 +151,38 @@ def _is_known(world: World, goal: str) -> bool:
     return True
 
 
-def warn_of_losses(options: argparse.Namespace, findings: Sequence[Finding]) -> None:
-    """Warn of whatever in a file could not be read."""
+def tell_labels(options: argparse.Namespace, dataset: Dataset, world: World) -> None:
+    """Say which objects are at hand by their label alone; warn where that may be meant otherwise."""
+    found = list(labels_alone(dataset, world))
+    for finding in found[: shown(options, len(found))]:
+        tell_it = warn if finding.severity is Severity.WARNING else note
+        tell_it(options, f"{finding.file}: {finding.message}")
+    if len(found) > shown(options, len(found)):
+        note(options, f"and {len(found) - shown(options, len(found))} more labels; --verbose shows all")
+
+
+def warn_of_findings(
+    options: argparse.Namespace, findings: Iterable[Finding], beside: Iterable[str] = ()
+) -> None:
+    """Warn of whatever in a file could not be read, and of what stands around it.
+
+    Of the files `beside` a FOON all is told that is odd. Where a file is cut off, the exit status says so.
+    """
+    odd: dict[str, list[Finding]] = {}
+    beside = frozenset(beside)
     for finding in findings:
-        if finding.severity is Severity.ERROR:
+        if finding.code == CUT_OFF:
+            options.cut_off = True
+        if finding.severity is Severity.ERROR or finding.code in OF_WHOLE_FILES:
             warn(options, f"{finding.file}:{finding.line}: {finding.message}")
-
-
-def cut_off(findings: Iterable[Finding]) -> bool:
-    """Tell whether a file ended before its end: then the exit status says so, too."""
-    return any(finding.code == "broken-json" for finding in findings)
+        elif finding.file in beside:
+            odd.setdefault(finding.file, []).append(finding)
+    for file, found in odd.items():
+        count = shown(options, len(found))
+        for finding in found[:count]:
+            warn(options, f"{file}:{finding.line}: {finding.message}")
+        if len(found) > count:
+            warn(options, f"{file}: and {len(found) - count} more that are odd")
 
 
 def named_goals(options: argparse.Namespace) -> list[Named]:
@@ -168,14 +191,15 @@ def named_goals(options: argparse.Namespace) -> list[Named]:
     return [*one_by_one, *listed_goals(options)]
 
 
-def listed_goals(options: argparse.Namespace) -> list[ObjectNode]:
+def listed_goals(options: argparse.Namespace) -> list[Named]:
     """Return the goals of the file of goals; none without one."""
     if getattr(options, "goals", None) is None:
         return []
-    listed = read_objects(Path(options.goals))
-    if not listed:
+    file = read_listed(Path(options.goals), options.vocabulary)
+    warn_of_findings(options, file.findings, [options.goals])
+    if not file.objects:
         raise QueryError(f"{options.goals}: the list of goals is empty")
-    return listed
+    return [each.named for each in file.objects]
 
 
 def find_goals(options: argparse.Namespace, world: World) -> list[ObjectNode]:

@@ -55,6 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     started = time.monotonic()
+    options.cut_off = False
     for renamed in options.renamed:
         warn(options, renamed)
     output.check(options)
@@ -66,7 +67,7 @@ def _run(options: argparse.Namespace) -> int:
         note(options, reply.summary)
     if options.verbose:
         note(options, f"{options.command} took {time.monotonic() - started:.2f} s")
-    return INTERRUPTED if limits.interrupted() else int(reply.exit_code)
+    return INTERRUPTED if limits.interrupted() else int(reply.exit_code) or int(options.cut_off)
 
 
 def _parser() -> Parser:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import stat
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -25,6 +27,7 @@ STORE_FILES = ("units.parquet", "objects.parquet")
 
 
 _LONGEST_NUMBER = 300
+_LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 def is_store(path: Path) -> bool:
@@ -103,6 +106,13 @@ def read_string(path: Path) -> str:
         line = data.count(b"\n", 0, error.start) + 1
         byte = data[error.start]
         raise InputError(path, line, f"byte 0x{byte:02x} is not UTF-8", "save the file as UTF-8") from None
+
+
+def rows(text: str) -> Iterator[tuple[int, str]]:
+    """Yield the lines of a text with their numbers, but for empty ones and those that begin with `#`."""
+    for line, row in enumerate(_LINE_END.split(text), 1):
+        if row.strip() and not row.startswith("#"):
+            yield line, row
 
 
 def parse_json(text: str, path: Path) -> Any:

@@ -90,6 +90,12 @@ ODDITIES = {
 }
 
 
+CUT_OFF = "broken-json"
+"""The code of a file that ends before its end."""
+
+OF_WHOLE_FILES = frozenset({"text-around-json", "no-units"})
+"""The codes of what is odd about a file as a whole, so that it is told at once."""
+
 USUAL = frozenset({"empty-unit", "duplicate-unit"})
 """What well-formed files have, too: the `//` at their top, and units that other files have as well."""
 

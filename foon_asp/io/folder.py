@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import TypedDict, Unpack
 
 from foon_asp.errors import InputError, QueryError
-from foon_asp.io.costs import read_costs
 from foon_asp.io.files import exists, is_folder, is_store
 from foon_asp.io.findings import Finding, Severity
-from foon_asp.io.kitchen import read_labels, read_objects, read_rates, read_stock
+from foon_asp.io.kitchen import KitchenFiles, read_goals
 from foon_asp.io.open import FoonFiles, open_files
 from foon_asp.io.vocabulary import VocabularyName
 from foon_asp.model.foon import Foon
@@ -24,7 +23,16 @@ from foon_asp.model.world import World
 from foon_asp.resources import built_in_data
 from foon_asp.values import a_list, said
 
-_BESIDE_A_FOON = frozenset({"motion.txt", "utensils.txt", "words.txt"})
+BESIDE = {
+    "kitchen": ("kitchen.json", "kitchen.txt"),
+    "rates": ("motion.txt", "motion.json"),
+    "costs": ("motion_cost.json", "motion_cost.txt"),
+    "utensils": ("utensils.txt", "utensils.json"),
+    "goals": ("goal_nodes.json", "goal_nodes.txt"),
+}
+"""What may lie in a data folder beside the FOON, and by which names; the first that is there counts."""
+
+_NO_FOON = frozenset({"words.txt", *(name for names in BESIDE.values() for name in names)})
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +100,7 @@ def foon_files(folder: Path) -> list[Path]:
         return [folder]
     if not is_folder(folder):
         return []
-    return sorted(path for path in folder.glob("*.txt") if path.name not in _BESIDE_A_FOON)
+    return sorted(path for path in folder.glob("*.txt") if path.name not in _NO_FOON)
 
 
 class SourceKeys(TypedDict, total=False):
@@ -162,21 +170,22 @@ class Sources:
 
         others = folder is None and bool(named)
 
-        def beside(named: str | Path | None, usual: str) -> str | None:
-            return str(named) if named is not None else _there(root / usual)
+        def beside(what: str, given: str | Path | None) -> str | None:
+            there = (str(root / usual) for usual in BESIDE[what] if exists(root / usual))
+            return next(there, None) if given is None else str(given)
 
-        def made_for_it(named: str | Path | None, usual: str) -> str | None:
+        def made_for_it(what: str, given: str | Path | None) -> str | None:
             """Return a file that goes with one FOON: the built-in kitchen and goals are of no other."""
-            return None if named is None and others else beside(named, usual)
+            return None if given is None and others else beside(what, given)
 
         return cls(
             str(root),
             tuple(paths),
-            made_for_it(files.get("kitchen"), "kitchen.json"),
-            beside(files.get("rates"), "motion.txt"),
-            beside(files.get("costs"), "motion_cost.json"),
-            beside(files.get("utensils"), "utensils.txt"),
-            made_for_it(files.get("goals"), "goal_nodes.json"),
+            made_for_it("kitchen", files.get("kitchen")),
+            beside("rates", files.get("rates")),
+            beside("costs", files.get("costs")),
+            beside("utensils", files.get("utensils")),
+            made_for_it("goals", files.get("goals")),
             files.get("default_rate"),
             files.get("default_cost"),
             files.get("strict_format", False),
@@ -188,15 +197,15 @@ class Sources:
 
     @property
     def beside(self) -> dict[str, str]:
-        """The files that are read beside the FOON, by the names they have in a data folder."""
+        """The files that are read beside the FOON, by what they are: the keys of `BESIDE`."""
         named = {
-            "kitchen.json": self.kitchen,
-            "motion.txt": self.rates,
-            "motion_cost.json": self.costs,
-            "utensils.txt": self.utensils,
-            "goal_nodes.json": self.goals,
+            "kitchen": self.kitchen,
+            "rates": self.rates,
+            "costs": self.costs,
+            "utensils": self.utensils,
+            "goals": self.goals,
         }
-        return {name: path for name, path in named.items() if path is not None}
+        return {what: path for what, path in named.items() if path is not None}
 
     @property
     def paths(self) -> list[Path]:
@@ -221,22 +230,21 @@ class Sources:
     def load(self) -> Dataset:
         """Read all files; raise `InputError`. The FOON names its files as results do."""
         files = read_foon([Path(path) for path in self.foon], self.strict_format, self.vocabulary)
-        stock = read_stock(Path(self.kitchen)) if self.kitchen else {}
-        kitchen = Kitchen(
-            objects=tuple(stock),
-            utensils=read_labels(Path(self.utensils)) if self.utensils else frozenset(),
-            rates=read_rates(Path(self.rates)) if self.rates else {},
-            default_rate=self.default_rate,
-            costs=read_costs(Path(self.costs)) if self.costs else {},
-            default_cost=self.default_cost,
-            quantities={node: quantity for node, quantity in stock.items() if quantity is not None},
-            stated=bool(self.kitchen),
-        )
+        kitchen, odd = KitchenFiles(
+            self.kitchen,
+            self.utensils,
+            self.rates,
+            self.costs,
+            self.default_rate,
+            self.default_cost,
+            self.vocabulary,
+        ).read(files.foon)
+        goals, odd_goals = read_goals(self.goals, files.foon, self.vocabulary)
         return Dataset(
             foon=_renamed_files(files.foon, dict(self.shown)) if self.shown else files.foon,
             kitchen=kitchen,
-            goals=tuple(read_objects(Path(self.goals)) if self.goals else files.foon.marked_goals()),
-            findings=files.findings,
+            goals=goals if self.goals else tuple(files.foon.marked_goals()),
+            findings=(*files.findings, *odd, *odd_goals),
             units_read=files.units_read,
             sources=self,
             strict=self.strict,
@@ -250,10 +258,6 @@ def _renamed_files(foon: Foon, names: Mapping[str, str]) -> Foon:
     units = foon.units
     notes = replace(units.notes, files=[names.get(file, file) for file in units.notes.files])
     return replace(foon, units=UnitTable(units.motions, units.motion, units.inputs, units.outputs, notes))
-
-
-def _there(path: Path) -> str | None:
-    return str(path) if exists(path) else None
 
 
 def _absolute(path: str | None) -> str | None:

@@ -75,7 +75,7 @@ class JsonReader:
             self._line = 1
             self._report("byte-order-mark", "the file begins with a byte order mark")
             text = text.lstrip("\ufeff")
-        document = Document(text.replace("\r\n", "\n").replace("\r", "\n"), Path(file))
+        document = Document(text, Path(file))
         document.read()
         for line, code, message in document.oddities:
             self._line = line

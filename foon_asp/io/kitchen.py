@@ -1,98 +1,119 @@
-"""Reading what stands beside a FOON: objects at hand, goals, success rates, labels. One clear error each."""
+"""Reading what stands beside a FOON: objects at hand, goals, labels. One clear error each."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from foon_asp.characters import is_label
 from foon_asp.errors import InputError
-from foon_asp.io.document import OBJECTS_ADVICE, Document
-from foon_asp.io.files import read_string
-from foon_asp.io.objects import object_from_json, refuse_unknown_keys
+from foon_asp.io.document import Document
+from foon_asp.io.files import read_string, rows
+from foon_asp.io.findings import Finding, Severity
+from foon_asp.io.listed import Listed, read_listed
+from foon_asp.io.motions import read_costs, read_rates
+from foon_asp.io.vocabulary import VocabularyName
+from foon_asp.model.foon import Foon
+from foon_asp.model.kitchen import Kitchen
+from foon_asp.model.lookup import Pattern, likeliest
 from foon_asp.model.node import ObjectNode
-from foon_asp.numbers import QUANTITY, RATE
+from foon_asp.model.notation import read_object
+from foon_asp.numbers import QUANTITY
 from foon_asp.values import said
-
-_LINE_END = re.compile(r"\r\n|\r|\n")
-
-
-def read_objects(path: Path) -> list[ObjectNode]:
-    """Read a JSON list of objects `{label, states, ingredients, container}`, e.g. goals."""
-    return [node for node, _ in _read_items(path)]
+from foon_asp.words import shortened
 
 
-def read_stock(path: Path) -> dict[ObjectNode, int | None]:
-    """Read a kitchen: a list of objects, each with how many there are (`quantity`), or None for plenty.
+@dataclass(frozen=True, slots=True)
+class KitchenFiles:
+    """The files that say what is at hand, which labels are utensils, and what is known of motions."""
+
+    kitchen: str | None = None
+    utensils: str | None = None
+    rates: str | None = None
+    costs: str | None = None
+    default_rate: float | None = None
+    default_cost: float | None = None
+    vocabulary: VocabularyName = "current"
+
+    def read(self, foon: Foon) -> tuple[Kitchen, tuple[Finding, ...]]:
+        """Read the kitchen of a FOON, and what was odd in the list of objects; raise `InputError`."""
+        listed = None if self.kitchen is None else read_listed(Path(self.kitchen), self.vocabulary)
+        named = [] if listed is None else list(listed.named_in(foon))
+        stock = _stock((node, each) for each, node in named if isinstance(node, ObjectNode))
+        kitchen = Kitchen(
+            objects=tuple(stock),
+            utensils=read_labels(Path(self.utensils)) if self.utensils else frozenset(),
+            rates=read_rates(Path(self.rates)) if self.rates else {},
+            default_rate=self.default_rate,
+            costs=read_costs(Path(self.costs)) if self.costs else {},
+            default_cost=self.default_cost,
+            quantities={node: quantity for node, quantity in stock.items() if quantity is not None},
+            stated=listed is not None,
+            labels=tuple(dict.fromkeys(label for _, label in named if isinstance(label, str))),
+        )
+        return kitchen, () if listed is None else listed.findings
+
+
+def _stock(listed: Iterable[tuple[ObjectNode, Listed]]) -> dict[ObjectNode, int | None]:
+    """Return how many there are of each object, None for plenty.
 
     The quantities of an object that is listed twice add up; of an object with the quantity 0 there is none.
     """
     stock: dict[ObjectNode, int | None] = {}
-    for node, quantity in _read_items(path):
+    for node, each in listed:
         before = stock.get(node, 0)
         # What is more than the largest quantity is plenty.
-        total = None if before is None or quantity is None else before + quantity
+        total = None if before is None or each.quantity is None else before + each.quantity
         stock[node] = total if total is None or QUANTITY.fits(total) else None
     return {node: quantity for node, quantity in stock.items() if quantity != 0}
 
 
-def _read_items(path: Path) -> list[tuple[ObjectNode, int | None]]:
-    found = []
-    for place, item in enumerate(Document(read_string(path), path).read_list(), 1):
-        try:
-            if item.repeated:
-                raise ValueError(f"the key {item.repeated[0]!r} stands twice")
-            node = object_from_json(item.value, refuse_unknown_keys, more=("quantity",))
-            found.append((node, _quantity(item.value)))
-        except ValueError as error:
-            raise InputError(path, item.line, f"object {place}: {error}", OBJECTS_ADVICE) from None
-    return found
+def read_goals(
+    name: str | None, foon: Foon, vocabulary: VocabularyName = "current"
+) -> tuple[tuple[ObjectNode, ...], tuple[Finding, ...]]:
+    """Read the goals of a FOON from a file, if there is one, and what was odd; raise `InputError`.
 
-
-def _quantity(item: dict[str, Any]) -> int | None:
-    quantity = item.get("quantity")
-    if quantity is not None and not QUANTITY.fits(quantity):
-        raise ValueError(f"'quantity' is {QUANTITY.words}, not {said(quantity)}")
-    return quantity
-
-
-def read_rates(path: Path) -> dict[str, float]:
-    """Read `motion<tab>rate` lines; a rate is a chance in [0, 1], and a motion has one."""
-    rates: dict[str, float] = {}
-    lines: dict[str, int] = {}
-    for line, row in rows(path):
-        label, tab, text = row.rpartition("\t")
-        motion = label.strip().lower().rstrip("*").rstrip()
-        try:
-            rate = RATE.read(text)
-        except ValueError:
-            rate = -1
-        if not tab or rate < 0 or not is_label(motion):
-            advice = "write motion<tab>rate, the rate between 0 and 1"
-            raise InputError(path, line, f"cannot read {said(row)}", advice)
-        if rates.setdefault(motion, rate) != rate:
-            problem = f"{rate:g} here and {rates[motion]:g} in line {lines[motion]}"
-            raise InputError(path, line, f"two rates of {said(motion)}: {problem}", "keep one of the lines")
-        lines.setdefault(motion, line)
-    return rates
+    A label, or an object without some of its parts, means what it does on the command line. One that may mean
+    several objects is left out, with a finding; what the FOON does not know is a goal that it cannot make.
+    """
+    if name is None:
+        return (), ()
+    file = read_listed(Path(name), vocabulary)
+    goals: list[ObjectNode] = []
+    findings = list(file.findings)
+    for each, named in file.named_in(foon):
+        node = named if isinstance(named, ObjectNode) else ObjectNode(named)
+        if isinstance(each.named, str) and foon.id_of(node) is None:
+            pattern = Pattern.of(read_object(each.named, foon.labels))
+            fitting = [other for other in foon.labelled(node.label) if pattern.matches(other, exactly=False)]
+            meant = likeliest(pattern, fitting)
+            if fitting and meant is None:
+                message = f"ambiguous goal {said(each.named)}: {shortened(fitting, mark=';')}; it is left out"
+                findings.append(Finding("ambiguous-goal", Severity.ERROR, name, each.line, message))
+                continue
+            node = meant or node
+        goals.append(node)
+    return tuple(goals), tuple(findings)
 
 
 def read_labels(path: Path) -> frozenset[str]:
-    """Read labels, one a line: utensils, motions, what a diet forbids."""
+    """Read labels, one a line or a JSON list: utensils, motions, what a diet forbids."""
+    text = read_string(path)
     found = set()
-    for line, row in rows(path):
-        label = row.strip().lower()
+    for line, label in _json_items(text, path) if text.lstrip()[:1] in ("[", "{") else rows(text):
         if not is_label(label):
-            problem = f"no label: {said(row)} has a character that no label may have"
-            raise InputError(path, line, problem, "write a label a line")
-        found.add(label)
+            why = " has a character that no label may have" if isinstance(label, str) else ""
+            raise InputError(path, line, f"no label: {said(label)}{why}", "write a label a line")
+        found.add(label.strip().lower())
     return frozenset(found)
 
 
-def rows(path: Path) -> Iterator[tuple[int, str]]:
-    """Yield the lines of a file with their numbers, but for empty ones and those that begin with `#`."""
-    for line, row in enumerate(_LINE_END.split(read_string(path)), 1):
-        if row.strip() and not row.startswith("#"):
-            yield line, row
+def _json_items(text: str, path: Path) -> Iterator[tuple[int, Any]]:
+    document = Document(text, path)
+    document.read_objects()
+    for line, _, message in document.oddities:
+        raise InputError(path, line, message, 'write ["a label", …]')
+    for item in document.items:
+        yield item.line, item.value

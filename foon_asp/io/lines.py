@@ -39,7 +39,8 @@ something: which video the units were seen in, and where the next one comes from
 Oddity = tuple[str, str, str]
 """Code, message and mend of what is odd in a line."""
 
-_HEAD = re.compile(rf"([OMom]){ANY_ID}(?:[\t ]|\Z)|//|#|[/\\]+[\t ]*\Z")
+HEAD = re.compile(rf"([OMom]){ANY_ID}(?:[\t ]|\Z)|//|#|[/\\]+[\t ]*\Z")
+"""How a line begins that is an object or a motion (the letter is its group), the end of a unit, a comment."""
 _ID = re.compile(rf"[OSMosm]{ANY_ID}(?: *\t *| +|$)")
 """The id, and what parts it from the first field. A second tab ends that field, which is empty then."""
 
@@ -183,7 +184,7 @@ class Lines(dict[str, int]):
 
     def _read(self, row: str) -> tuple[int, int, int, tuple[Oddity, ...]]:
         """Return kind, code and mark of a line, and what is odd in it."""
-        head = _HEAD.match(row)
+        head = HEAD.match(row)
         if head is None:
             state, odd = read_state(row, self._words)
             if state is None:

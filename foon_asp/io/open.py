@@ -12,10 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from foon_asp.errors import InputError
-from foon_asp.io.document import JSON_ADVICE, VALUE
+from foon_asp.io.document import JSON_ADVICE, is_json
 from foon_asp.io.files import is_store, read_bytes
 from foon_asp.io.findings import USUAL, Finding, Severity, oddity
-from foon_asp.io.mend import ANY_ID
 from foon_asp.io.syntax import other_rate
 from foon_asp.io.text import TextReader
 from foon_asp.io.vocabulary import VocabularyName, vocabulary
@@ -49,13 +48,6 @@ _WIDE = (
 
 
 _LINE = re.compile(rb"[^\r\n]*(?:\r\n|\r|\n|\Z)")
-
-
-_JSON = re.compile(r"[\s\x00-\x1f\x7f-\x9f\ufeff]*[\[{]")
-
-
-_OF_TEXT = re.compile(rf"(?:\A|[\r\n])[^\w\r\n]*(?:[OM]{ANY_ID}(?:[\t \r\n]|\Z)|[om]{ANY_ID}\t)")
-"""A line of FOON text that is an object or a motion."""
 
 
 _PICKLE_SUFFIXES = frozenset({".pkl", ".pickle"})
@@ -207,16 +199,6 @@ def _decode_lines(data: bytes, file: str) -> tuple[str, list[Finding]]:
             findings.append(oddity("not-utf8", file, number, message))
             lines.append(match[0].decode("cp1252", "replace"))
     return "".join(lines), findings
-
-
-def is_json(text: str) -> bool:
-    """Tell whether a text is meant as JSON: no line of FOON text begins with a bracket.
-
-    Prose may stand before the JSON, as language models write it, but no object or motion of FOON text.
-    """
-    if _JSON.match(text) is not None:
-        return True
-    return _OF_TEXT.search(text) is None and VALUE.search(text) is not None
 
 
 def _refuse_pickle(data: bytes, path: Path) -> None:

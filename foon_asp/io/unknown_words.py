@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from foon_asp.io.findings import Finding, Severity
-from foon_asp.io.folder import Dataset, Sources
+from foon_asp.io.folder import BESIDE, Dataset, Sources
 from foon_asp.model.node import ObjectNode
+from foon_asp.model.stock import labelled
 from foon_asp.model.world import World
-from foon_asp.words import closest, likest
+from foon_asp.words import closest, likest, shortened
 
 _NEAR = 0.75
 """How much a word must resemble a known one to be taken for it, of 1."""
@@ -46,14 +47,36 @@ def unknown(dataset: Dataset, world: World) -> Iterator[Finding]:
     beside = dataset.sources.beside
     for node in world.strangers if dataset.kitchen.stated else ():
         message = f"the kitchen has {node}, which the FOON does not know{nearest(world, node)}"
-        yield Finding("unknown-object", Severity.WARNING, beside["kitchen.json"], 0, message)
+        yield Finding("unknown-object", Severity.WARNING, beside["kitchen"], 0, message)
     for node in unknown_goals(world):
         message = f"the goal {node} is no object of this FOON{nearest(world, node)}"
-        yield Finding("unknown-goal", Severity.WARNING, beside["goal_nodes.json"], 0, message)
+        yield Finding("unknown-goal", Severity.WARNING, beside["goals"], 0, message)
+    yield from labels_alone(dataset, world)
     for words in (rates(dataset, world), utensils(dataset, world)):
         for word, near in words.misspelt():
             message = f"the FOON does not know {word!r} (closest: {near})"
             yield Finding("unknown-word", Severity.WARNING, words.name, 0, message)
+
+
+def labels_alone(dataset: Dataset, world: World) -> Iterator[Finding]:
+    """Yield which objects the labels of a kitchen mean in a FOON; first those that mean none, or several."""
+    if not dataset.kitchen.labels:
+        return
+    plain: list[Finding] = []
+    file = dataset.sources.beside["kitchen"]
+    for label in dataset.kitchen.labels:
+        known, nodes = world.foon.labelled(label), labelled(world.units, label)
+        if not nodes and known:
+            message = (
+                f"{label!r} is nothing that is at hand: units make {shortened(known, mark=';')}; name one"
+            )
+            yield Finding("ambiguous-label", Severity.WARNING, file, 0, message)
+        elif len(nodes) > 1:
+            message = f"{label!r} may be {shortened(nodes, mark=';')}; all of them are at hand"
+            yield Finding("ambiguous-label", Severity.WARNING, file, 0, message)
+        elif nodes and nodes[0] != ObjectNode(label):
+            plain.append(Finding("label-alone", Severity.NOTE, file, 0, f"{label!r} is {nodes[0]}"))
+    yield from plain
 
 
 def unknown_goals(world: World) -> list[ObjectNode]:
@@ -63,13 +86,13 @@ def unknown_goals(world: World) -> list[ObjectNode]:
 
 def rates(dataset: Dataset, world: World) -> Words:
     """Return the motions that have rates."""
-    name, beside = _file(dataset.sources, "motion.txt")
+    name, beside = _file(dataset.sources, "rates")
     return Words(name, "motions", dataset.kitchen.rates, world.foon.motions, beside)
 
 
 def utensils(dataset: Dataset, world: World) -> Words:
     """Return the labels of utensils; those of the FOON are only looked up if there are some."""
-    name, beside = _file(dataset.sources, "utensils.txt")
+    name, beside = _file(dataset.sources, "utensils")
     words = dataset.kitchen.utensils
     return Words(name, "labels", words, known_labels(world) if words else (), beside)
 
@@ -87,8 +110,8 @@ def nearest(world: World, node: ObjectNode) -> str:
     return closest(node.label, world.foon.labels, 1)
 
 
-def _file(sources: Sources, usual: str) -> tuple[str, bool]:
+def _file(sources: Sources, what: str) -> tuple[str, bool]:
     """Return the name of a file beside the FOON, and whether it was made for it."""
-    name, folder = sources.beside.get(usual, ""), Path(sources.folder)
+    name, folder = sources.beside.get(what, ""), Path(sources.folder)
     of_folder = any(folder in (Path(path), Path(path).parent) for path in sources.foon)
-    return name, of_folder or Path(name) != folder / usual
+    return name, of_folder or Path(name) not in {folder / usual for usual in BESIDE[what]}

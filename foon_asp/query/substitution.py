@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from foon_asp.errors import InputError, QueryError
-from foon_asp.io.kitchen import rows
+from foon_asp.io.files import read_string, rows
 from foon_asp.io.similar import ingredient_vectors
 from foon_asp.model.node import check_label
 from foon_asp.model.similarity import Likeness, Similar, Similarity, Table, Words
@@ -113,7 +113,7 @@ def read_substitutes(path: Path) -> list[Replacement]:
     What replaces a label may be `-`: then it may be left out. Each pair stands once.
     """
     found: dict[tuple[str, str | None], Replacement] = {}
-    for line, text in rows(path):
+    for line, text in rows(read_string(path)):
         fields = [field.strip() for field in text.split("\t")]
         try:
             label, by, likeness, note = fields if len(fields) > 3 else [*fields, ""]

@@ -18,9 +18,11 @@ from foon_asp.batch.answerer import Answerer, Settings
 from foon_asp.errors import FoonError
 from foon_asp.io.files import read_string
 from foon_asp.io.folder import Sources
-from foon_asp.io.kitchen import read_labels, read_objects, read_rates, read_stock
+from foon_asp.io.kitchen import KitchenFiles, read_goals, read_labels
+from foon_asp.io.motions import read_rates
 from foon_asp.io.object_wire import object_to_json
-from foon_asp.io.text import write_text
+from foon_asp.io.text import object_lines, write_text
+from foon_asp.model.world import World
 from foon_asp.planning.pddl.names import read_names
 from foon_asp.planning.pddl.plan_file import read_plan
 from foon_asp.planning.pddl.write import written_names
@@ -81,15 +83,21 @@ def _start(name: str, size: int = 600) -> str:
 
 def _beside() -> dict[str, Reader]:
     nodes = [msgspec.to_builtins(object_to_json(node)) for node in soup().foon.objects]
-    kitchens = [json.dumps(nodes), json.dumps([{**node, "quantity": 2} for node in nodes[:4]], indent=1)]
+    text = "\n".join(row for node in soup().foon.objects for row in object_lines(node))
+    labels = "\n".join(map(str, soup().foon.objects))
+    counted = json.dumps([{**node, "quantity": 2} for node in nodes[:4]], indent=1)
+    kitchens = [json.dumps(nodes), counted, text, labels]
     where = soup()
 
     def goals(_: bytes, path: Path) -> None:
-        for node in read_objects(path):
+        for node in read_goals(str(path), where.foon)[0]:
             find_object(where, node)
 
+    def kitchen(_: bytes, path: Path) -> None:
+        World.of(where.foon, KitchenFiles(str(path)).read(where.foon)[0])
+
     return {
-        "kitchens": Reader(_changes(kitchens), lambda _, path: read_stock(path), 100),
+        "kitchens": Reader(_changes(kitchens), kitchen, 100),
         "goal files": Reader(_changes(kitchens), goals, 100),
         "rates": Reader(
             _changes([_start("motion.txt"), "chop\t0.5\n"]), lambda _, path: read_rates(path), 100

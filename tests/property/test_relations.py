@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import event, given
 from hypothesis import strategies as st
 
 import foon_asp as fa
@@ -17,7 +18,12 @@ from foon_asp.model.foon import Foon, FoonBuilder
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import Annotation, ObjectNode, State
 from foon_asp.model.world import World
+from foon_asp.query.objective import Objective
 from foon_asp.query.problem import Problem
+from foon_asp.query.query import Query
+from foon_asp.retrieval.methods.proven import solved
+from foon_asp.retrieval.retrieve import retrieve
+from support import brute_force
 from support.small_foons import many, node
 
 _PLACES = ("in", "on", "under")
@@ -45,13 +51,15 @@ def _foon(units: Iterable[tuple[list[ObjectNode], list[ObjectNode]]]) -> Foon:
 
 
 @st.composite
-def _pairs(draw: st.DrawFn) -> tuple[World, World]:
+def _pairs(
+    draw: st.DrawFn, tools: tuple[tuple[str, ...], ...] = ((), ("bowl",), ("bowl", "cup"))
+) -> tuple[World, World]:
     """Draw a world in which relations are matched loosely, and one in which all are written `in`."""
     side = st.lists(st.sampled_from(_POOL), min_size=1, max_size=4, unique=True)
     units = draw(st.lists(st.tuples(side, side), min_size=1, max_size=5))
     counts = draw(st.dictionaries(st.sampled_from(_POOL), st.integers(1, 2), max_size=3))
     stock = draw(st.lists(st.sampled_from(_POOL), max_size=3, unique=True))
-    utensils = draw(st.sampled_from([(), ("bowl",), ("bowl", "cup")]))
+    utensils = draw(st.sampled_from(tools))
     strict = draw(st.booleans())
     kitchen = Kitchen((*stock, *(each for each in counts if each not in stock)), frozenset(utensils))
     loose = World.of(_foon(units), kitchen, strict=strict, match_relations="loose")
@@ -86,6 +94,38 @@ def test_the_encodings_read_as_python_does(worlds: tuple[World, World], semantic
         assert set(model.rows(name)) == {(unit, each) for unit in where.foon.units.ids for each in rows[unit]}
     deleted = {(unit, each) for unit in where.foon.units.ids for each in effects.deletes(unit)}
     assert set(model.rows("deletes")) == deleted
+
+
+@pytest.mark.parametrize("by", ["inputs", "tools,inputs", "dirty,units", "success"])
+@given(worlds=_pairs(tools=(("bowl",), ("bowl", "cup"))), data=st.data())
+@many(80)
+def test_the_optimum_is_that_of_trying_every_set_of_units(
+    by: str, worlds: tuple[World, World], data: st.DataObject
+) -> None:
+    """What a tree costs is what its units list; whether it can be executed, what is read as `in`.
+
+    Most of these questions need no solver once they are reduced, so clingo is asked of all units, too.
+    """
+    rates = {motion: data.draw(st.sampled_from([0.5, 0.9])) for motion in worlds[0].foon.motions}
+    loose, plain = (replace(where, kitchen=replace(where.kitchen, rates=rates)) for where in worlds)
+    makeable = [number for number in loose.closure.available if number not in loose.stock]
+    goal = data.draw(st.sampled_from([*map(loose.node, makeable), *loose.foon.objects]))
+    found = [
+        brute_force.sums(loose, units) | {"depth": costs["depth"]}
+        for units in brute_force.every_set(plain)
+        if (costs := brute_force.costs(plain, _in(goal), units)) is not None
+    ]
+    event(f"{min(len(found), 3)} trees")
+    names = by.split(",")
+    for answer in (
+        retrieve(loose, Query(goal, by=by)),
+        solved(Problem.of(loose, [goal]), Objective.parse(by)),
+    ):
+        assert (answer.tree is None) == (not found)
+        if answer.tree is not None:
+            best = brute_force.best(found, names)
+            shown = [getattr(answer.tree.costs, name) for name in names]
+            assert shown == pytest.approx([float(best[name]) for name in names])
 
 
 @pytest.mark.parametrize("matching", ["strict", "loose"])

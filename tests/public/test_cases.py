@@ -91,14 +91,76 @@ def test_several_trees_stay_several(name: str, trees: int) -> None:
     assert len(TreeBuilder().read_file(CASES / name).parts) == trees
 
 
-@pytest.mark.parametrize("command", [("check",), ("convert", "-o", "-", "--to", "text")])
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("check",),
+        ("convert", "-o", "-", "--to", "text"),
+        ("merge",),
+        ("retrieve", "a [c]", "--foon"),
+        ("reach", "--foon"),
+    ],
+    ids=lambda command: command[0],
+)
 def test_what_is_cut_off_is_told_by_the_status(
     capsys: pytest.CaptureFixture[str], command: tuple[str, ...]
 ) -> None:
-    status, out, err = run(capsys, command[0], CASES / "truncated.json", *command[1:])
+    name = CASES / "truncated.json"
+    words = (*command, name) if command[-1] == "--foon" else (command[0], name, *command[1:])
+    status, out, err = run(capsys, *words)
     assert status == 1
     assert out
     assert "the rest is left out" in err
+
+
+@pytest.mark.parametrize("kitchen", ["none-kitchen.json", "kitchen.txt", "kitchen-labels.txt"])
+def test_a_kitchen_in_every_form(capsys: pytest.CaptureFixture[str], kitchen: str) -> None:
+    """The egg of the kitchen is the egg that is needed."""
+    files = ("--foon", CASES / "none-container.json", "--kitchen", CASES / kitchen)
+    status, out, err = run(capsys, "retrieve", "egg [boiled]", *files)
+    assert (status, "1 step" in out) == (0, True)
+    assert ("'egg' is egg [raw]" in err) == (kitchen == "kitchen-labels.txt")
+
+
+TEA = """O\tcup
+S\tcontains\t{tea}
+O\tmug
+S\tempty
+M\tpour
+O\tcup
+S\tempty
+O\tmug
+S\tcontains\t{tea}
+//
+"""
+
+
+def test_a_data_folder_of_texts(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """A list of labels as the kitchen, FOON text as the goals, and a table in JSON as the rates."""
+    (tmp_path / "tea.txt").write_text(TEA, encoding="utf-8")
+    for case, name in (
+        ("kitchen-list.txt", "kitchen.txt"),
+        ("goals-text.txt", "goal_nodes.txt"),
+        ("rates.json", "motion.json"),
+    ):
+        (tmp_path / name).write_bytes((CASES / case).read_bytes())
+    status, out, err = run(capsys, "goals", "--data", tmp_path)
+    assert (status, out) == (0, "mug {tea}\n")
+    assert "the kitchen has tea, which the FOON does not know" in err
+    assert f"{tmp_path / 'kitchen.txt'}: 'cup' is cup {{tea}}" in err
+    assert f"{tmp_path / 'kitchen.txt'}: 'mug' is mug [empty]" in err
+    goals = ("--goals", tmp_path / "goal_nodes.txt")
+    status, out, _ = run(capsys, "retrieve", *goals, "--by", "success", "--data", tmp_path)
+    assert (status, "success 0.1 " in out) == (0, True)
+
+
+@pytest.mark.parametrize(("matching", "status"), [("loose", 0), ("strict", 2)])
+def test_what_is_on_a_plate_and_what_it_contains(
+    capsys: pytest.CaptureFixture[str], matching: str, status: int
+) -> None:
+    files = ("--foon", CASES / "on-vs-container.txt", "--kitchen", CASES / "k-on-vs-container.json")
+    asked = ("--goals", CASES / "g-on.json", "--match-relations", matching)
+    assert run(capsys, "retrieve", *asked, *files)[0] == status
 
 
 def test_an_empty_file_among_good_ones(capsys: pytest.CaptureFixture[str]) -> None:

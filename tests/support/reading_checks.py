@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from foon_asp.errors import FoonError
+from foon_asp.io.document import is_json
 from foon_asp.io.findings import ODDITIES, Finding
 from foon_asp.io.json import write_api, write_units
 from foon_asp.io.mend import OF_ROWS, mend_text
-from foon_asp.io.open import FoonFiles, FoonReader, decode, is_json
+from foon_asp.io.open import FoonFiles, FoonReader, decode
 from foon_asp.io.store_tables import from_tables, to_tables
 from foon_asp.io.text import write_text
 from foon_asp.model.foon import Foon

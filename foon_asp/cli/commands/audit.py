@@ -15,10 +15,11 @@ from foon_asp.cli.output import STDOUT, Reply, check_targets
 from foon_asp.cli.parser import Parser
 from foon_asp.errors import QueryError
 from foon_asp.io import atomic
+from foon_asp.io.document import is_json
 from foon_asp.io.files import is_store, read_bytes
 from foon_asp.io.findings import Severity
 from foon_asp.io.mend import mend_text
-from foon_asp.io.open import FoonReader, decode, is_json
+from foon_asp.io.open import FoonReader, decode
 from foon_asp.io.overwriting import refuse_inputs
 from foon_asp.io.unknown_words import unknown
 from foon_asp.io.wire import dumps

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import cut_off, load_data, open_trees
+from foon_asp.cli.inputs import load_data, open_trees
 from foon_asp.cli.messages import listing, note, tell
 from foon_asp.cli.output import Reply, check_targets
 from foon_asp.cli.parser import Parser
@@ -52,7 +52,6 @@ def run(options: argparse.Namespace) -> Reply:
         options.format = "foon"
     known = load_data(options)
     trees = open_trees(options, known.foon)
-    findings = [each for listing in trees.listings for each in listing.findings]
     query = CheckQuery(
         known.kitchen if options.kitchen is not None else None,
         known.kitchen.utensils,
@@ -77,7 +76,6 @@ def run(options: argparse.Namespace) -> Reply:
             "foon": lambda: _mended(options, checks),
         },
         [checks.status],
-        failed=checks.status.found and cut_off(findings),
     )
 
 

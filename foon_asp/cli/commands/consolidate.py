@@ -7,18 +7,16 @@ from pathlib import Path
 
 from foon_asp.cli import options as add
 from foon_asp.cli.commands.retrieve import tree_as_foon
-from foon_asp.cli.inputs import open_trees
+from foon_asp.cli.inputs import open_trees, warn_of_findings
 from foon_asp.cli.messages import note
 from foon_asp.cli.output import Reply, check_targets
 from foon_asp.cli.parser import Parser
 from foon_asp.cli.question import question
 from foon_asp.io import atomic
-from foon_asp.io.costs import read_costs
 from foon_asp.io.formats import choose_format
-from foon_asp.io.kitchen import read_labels, read_rates, read_stock
+from foon_asp.io.kitchen import KitchenFiles
 from foon_asp.io.transitions import read_orders
 from foon_asp.model.foon import FoonBuilder
-from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.relations import MATCHINGS
 from foon_asp.render.consolidate import consolidation_text
 from foon_asp.retrieval.consolidate import ConsolidateQuery, Consolidation, consolidate_trees, foon_of
@@ -79,9 +77,20 @@ def run(options: argparse.Namespace) -> Reply:
         # Told before anything is worked out.
         choose_format(FoonBuilder().build(), target, None)
     goals = () if options.goal is None else (options.goal,)
+    trees = open_trees(options, FoonBuilder().build())
+    kitchen, odd = KitchenFiles(
+        options.kitchen,
+        options.utensils,
+        options.rates,
+        options.costs,
+        options.default_rate,
+        options.default_cost,
+        options.vocabulary,
+    ).read(trees.foon)
+    warn_of_findings(options, odd, [options.kitchen or ""])
     asked = ConsolidateQuery(
         question(options, *goals),
-        _kitchen(options),
+        kitchen,
         {
             about: read_orders(Path(path))
             for flag, about in _MODELS.items()
@@ -91,8 +100,6 @@ def run(options: argparse.Namespace) -> Reply:
         strict=options.strict,
         match_relations=options.match_relations,
     )
-    nothing = FoonBuilder().build()
-    trees = open_trees(options, nothing)
     found = consolidate_trees(trees, asked)
     if target is not None:
         _write_tree(options, target, found)
@@ -101,18 +108,6 @@ def run(options: argparse.Namespace) -> Reply:
         lambda: consolidation_json(found),
         {"foon": lambda: [tree_as_foon(found.answer)]},
         [found.status],
-    )
-
-
-def _kitchen(options: argparse.Namespace) -> Kitchen:
-    return Kitchen(
-        () if options.kitchen is None else tuple(read_stock(Path(options.kitchen))),
-        frozenset() if options.utensils is None else read_labels(Path(options.utensils)),
-        {} if options.rates is None else read_rates(Path(options.rates)),
-        options.default_rate,
-        stated=options.kitchen is not None,
-        costs={} if options.costs is None else read_costs(Path(options.costs)),
-        default_cost=options.default_cost,
     )
 
 

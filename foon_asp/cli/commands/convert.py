@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import cut_off, open_foon
+from foon_asp.cli.inputs import open_foon
 from foon_asp.cli.messages import note, warn
 from foon_asp.cli.output import STDOUT, Reply, check_targets, write
 from foon_asp.cli.parser import Parser
@@ -38,20 +38,19 @@ def run(options: argparse.Namespace) -> Reply:
             raise QueryError("name the format with --to where the output is a folder")
         targets = [out / (source.stem + FORMATS[options.to].suffix) for source in sources]
         check_targets(options, *targets)
-        whole = [
-            _convert(options, [source], str(target)) for source, target in zip(sources, targets, strict=True)
-        ]
+        for source, target in zip(sources, targets, strict=True):
+            _convert(options, [source], str(target))
     else:
         if options.target != STDOUT:
             check_targets(options, out)
             if options.to is not None:
                 check_suffix(out, options.to)
-        whole = [_convert(options, sources, options.target)]
-    return Reply(failed=not all(whole))
+        _convert(options, sources, options.target)
+    return Reply()
 
 
-def _convert(options: argparse.Namespace, sources: Sequence[Path], target: str) -> bool:
-    """Write some files as one, say what is lost of them, and return whether none is cut off.
+def _convert(options: argparse.Namespace, sources: Sequence[Path], target: str) -> None:
+    """Write some files as one, and say what is lost of them.
 
     One file keeps its order and what it repeats, for it may be a task tree; several are merged.
     """
@@ -65,4 +64,3 @@ def _convert(options: argparse.Namespace, sources: Sequence[Path], target: str) 
         warn(options, f"{target}: the format {form.name!r} has no {what}; lost of {lost}")
     again = f", {counted(files.foon.duplicates, 'duplicate')} removed" if files.foon.duplicates else ""
     note(options, f"{target}: {counted(len(files.foon.units), 'unit')} ({form.name}){again}")
-    return not cut_off(files.findings)
