@@ -9,7 +9,7 @@ from pathlib import Path
 from foon_asp.cli.messages import shown, warn
 from foon_asp.io.folder import Dataset
 from foon_asp.io.kitchen import read_labels
-from foon_asp.io.unknown_words import Words, known_labels, rates, utensils
+from foon_asp.io.unknown_words import Words, known_labels, motions, utensils
 from foon_asp.model.world import World
 from foon_asp.resources import diets
 from foon_asp.words import shortened
@@ -26,7 +26,9 @@ def warn_of_unknown_words(options: argparse.Namespace, dataset: Dataset, world: 
 def _named(options: argparse.Namespace, dataset: Dataset, world: World) -> Iterator[Words]:
     """Yield the words of the files that are named; labels of the FOON are only looked up for some."""
     if options.rates:
-        yield rates(dataset, world)
+        yield motions(dataset, world, "rates")
+    if options.costs:
+        yield motions(dataset, world, "costs")
     for only in getattr(options, "only_motions", None) or ():
         yield Words(only, "motions", read_labels(Path(only)), world.foon.motions)
     if options.utensils:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from foon_asp.io.findings import Finding, Severity
 from foon_asp.io.folder import BESIDE, Dataset, Sources
@@ -52,7 +53,8 @@ def unknown(dataset: Dataset, world: World) -> Iterator[Finding]:
         message = f"the goal {node} is no object of this FOON{nearest(world, node)}"
         yield Finding("unknown-goal", Severity.WARNING, beside["goals"], 0, message)
     yield from labels_alone(dataset, world)
-    for words in (rates(dataset, world), utensils(dataset, world)):
+    tables = (motions(dataset, world, "rates"), motions(dataset, world, "costs"))
+    for words in (*tables, utensils(dataset, world)):
         for word, near in words.misspelt():
             message = f"the FOON does not know {word!r} (closest: {near})"
             yield Finding("unknown-word", Severity.WARNING, words.name, 0, message)
@@ -84,10 +86,11 @@ def unknown_goals(world: World) -> list[ObjectNode]:
     return [goal for goal in world.goals if world.foon.id_of(goal) is None and goal not in world.strangers]
 
 
-def rates(dataset: Dataset, world: World) -> Words:
-    """Return the motions that have rates."""
-    name, beside = _file(dataset.sources, "rates")
-    return Words(name, "motions", dataset.kitchen.rates, world.foon.motions, beside)
+def motions(dataset: Dataset, world: World, what: Literal["rates", "costs"]) -> Words:
+    """Return the motions that have rates, or costs."""
+    name, beside = _file(dataset.sources, what)
+    words = dataset.kitchen.rates if what == "rates" else dataset.kitchen.costs
+    return Words(name, "motions", words, world.foon.motions, beside)
 
 
 def utensils(dataset: Dataset, world: World) -> Words:

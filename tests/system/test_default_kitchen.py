@@ -85,3 +85,19 @@ def test_python_has_the_same_and_a_kitchen_that_is_there_counts(soup: Path) -> N
     assert len(fa.load(foon=[soup], kitchen=ROOT / "data" / "kitchen.json").kitchen.objects) == len(
         built_in.kitchen.objects
     )
+
+
+@pytest.mark.parametrize("command", ["check", "consolidate"])
+def test_a_kitchen_of_labels_is_read_for_trees_as_for_a_foon(
+    capsys: pytest.CaptureFixture[str], soup: Path, command: str
+) -> None:
+    """What a label means is what no unit of the trees makes."""
+    kitchen = soup.parent / "labels.txt"
+    for labels, status in (("Onion\nknife\npot\n", 0), ("onion\npot\n", 1)):
+        kitchen.write_text(labels, encoding="utf-8")
+        found, out, err = run(capsys, command, soup, "--kitchen", kitchen)
+        assert found == status
+        assert "knife" in out
+        assert NOTE not in err
+        if command == "check":
+            assert f"{kitchen}: 'onion' is onion [whole]" in err

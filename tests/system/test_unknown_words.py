@@ -57,6 +57,18 @@ def test_misspelt_words_are_told_with_the_closest(capsys: pytest.CaptureFixture[
     assert warned(capsys, "--data", data, "--diet", diet) == [lean]
 
 
+@pytest.mark.parametrize("option", ["--rates", "--costs"])
+def test_a_table_in_json_is_looked_at_as_one_of_lines(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, option: str
+) -> None:
+    for text in ('{"puor": 0.5, "mix": 1, "qqqqqqqq": 0.1}', "puor\t0.5\nmix\t1\nqqqqqqqq\t0.1\n"):
+        table = tmp_path / "table"
+        table.write_text(text)
+        assert warned(capsys, option, table) == [
+            f"{table}: motions that the FOON does not know: puor (closest: pour)"
+        ]
+
+
 NOT_KNOWN = "which the FOON does not know"
 
 

@@ -95,6 +95,8 @@ def test_what_json_cannot_be_read(text: str, message: str) -> None:
         ("[\n" + UNIT_JSON + ",\n]", (1, 1), [("broken-json", 3)]),
         ("[\n" + UNIT_JSON + ",\n" + UNIT_JSON[:60], (1, 1), [("broken-json", 3)]),
         ('{"tree": [\n' + UNIT_JSON + ",\n" + UNIT_JSON[:60], (1, 1), [("broken-json", 3)]),
+        (f'[{{"tree": [\n{UNIT_JSON}]}},\n{{"tree": [{UNIT_JSON}]}}]', (2, 0), [("duplicate-unit", 3)]),
+        (f'[{{"tree": [\n{UNIT_JSON},\n{UNIT_JSON[:60]}', (1, 1), [("broken-json", 3)]),
         (f"[{UNIT_JSON}].", (1, 0), [("text-around-json", 1)]),
         (f"Sure!\n\n[{UNIT_JSON}]\nEnjoy [it].", (1, 0), [("text-around-json", 1), ("text-around-json", 4)]),
         (f"```json\n[{UNIT_JSON}]\n```\n", (1, 0), [("text-around-json", 1), ("text-around-json", 3)]),

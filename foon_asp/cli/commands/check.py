@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import load_data, open_trees
+from foon_asp.cli.inputs import load_data, open_trees, tell_labels
 from foon_asp.cli.messages import listing, note, tell
 from foon_asp.cli.output import Reply, check_targets
 from foon_asp.cli.parser import Parser
@@ -66,6 +66,8 @@ def run(options: argparse.Namespace) -> Reply:
     if options.format == "foon" and len(trees.listings) != 1:
         raise QueryError("one tree at a time is written mended; take --format json for several")
     checks = check_trees(trees, query)
+    if checks.found and options.kitchen is not None:
+        tell_labels(options, known, checks[0].world)
     if target is not None:
         _write_kitchen(options, target, checks)
     return Reply(
