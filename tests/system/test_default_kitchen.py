@@ -8,25 +8,14 @@ from pathlib import Path
 import pytest
 
 import foon_asp as fa
+from foon_asp.io.text import write_text
 from support.cli import run
 from support.paths import ROOT
 
-SOUP = """O\tonion
-S\twhole
-O\tknife
-M\tchop
-O\tonion
-S\tchopped
-//
-O\tonion
-S\tchopped
-O\tpot
-S\tempty
-M\tput
-O\tpot
-S\tcontains\t{onion}
-//
-"""
+SOUP = [
+    (["onion [whole]", "knife"], "chop", ["onion [chopped]"]),
+    (["onion [chopped]", "pot [empty]"], "put", ["pot {onion}"]),
+]
 AT_HAND = {"onion [whole]", "knife", "pot [empty]"}
 NOTE = "foon-asp: no kitchen is named: at hand is what no unit makes"
 
@@ -35,7 +24,8 @@ NOTE = "foon-asp: no kitchen is named: at hand is what no unit makes"
 def soup(tmp_path: Path) -> Path:
     path = tmp_path / "data" / "soup.txt"
     path.parent.mkdir()
-    path.write_text(SOUP, encoding="utf-8")
+    foon = fa.read(SOUP)
+    path.write_text(write_text(foon, foon.units), encoding="utf-8")
     return path
 
 
