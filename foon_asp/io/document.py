@@ -176,7 +176,8 @@ class Document:
                 self._read_item()
                 return
             if key in self._kind.others:
-                raise InputError(self._path, self._line_here(), "a unit is no object", OBJECTS_ADVICE)
+                problem = "a unit: this is a FOON, and no list of objects"
+                raise InputError(self._path, self._line_here(), problem, "name it with --foon")
             if key == self._kind.alone and self._peek() == "[":
                 alone = True
                 self._read_items()

@@ -70,7 +70,7 @@ def test_a_kitchen_names_the_object_and_its_line(tmp_path: Path, item: str, comp
         ("[", "not JSON"),
         ("[5,]", "object 1: expected an object, found a number|not JSON"),
         ("", "nothing is in this file"),
-        ('[{"input_nodes": [{"label": "egg"}]}]', "a unit is no object"),
+        ('[{"input_nodes": [{"label": "egg"}]}]', "file:1: a unit: this is a FOON"),
         ("O\tegg\nM\tboil\n", "file:2: a motion: this is a FOON"),
         ("S\traw\nO\tegg\n", "the state 'S\\\\traw' belongs to no object"),
         ("O\tegg\nraw\n", "file:2: cannot read 'raw'"),
