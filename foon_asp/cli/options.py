@@ -62,10 +62,7 @@ def world(parser: Parser, match_relations: Matching = "strict") -> None:
     group.add_argument(
         "--foon", nargs="+", action="extend", default=[], metavar="FILE", help="FOON files or stores to merge"
     )
-    group.add_argument("--kitchen", metavar="FILE", help="objects at hand, a JSON list")
-    group.add_argument("--rates", metavar="FILE", help="success rates, lines of motion<tab>rate")
-    group.add_argument("--utensils", metavar="FILE", help="utensil labels, one a line")
-    group.add_argument("--default-rate", type=chance, metavar="P", help="rate of motions without one")
+    kitchen(group)
     costs(group)
     group.add_argument("--strict", action="store_true", help="need every input, implied views too")
     group.add_argument(
@@ -76,6 +73,16 @@ def world(parser: Parser, match_relations: Matching = "strict") -> None:
     )
     as_read(group)
     _level(group)
+
+
+def kitchen(group: argparse._ActionsContainer, note: str = "") -> None:
+    """Add what is at hand, what of it are utensils, and how likely motions succeed."""
+    group.add_argument("--kitchen", metavar="FILE", help=f"objects at hand: JSON, FOON text, or labels{note}")
+    group.add_argument(
+        "--rates", metavar="FILE", help="success rates, a JSON object, or lines of motion<tab>rate"
+    )
+    group.add_argument("--utensils", metavar="FILE", help="utensil labels, one a line or a JSON list")
+    group.add_argument("--default-rate", type=chance, metavar="P", help="rate of motions without one")
 
 
 def costs(group: argparse._ActionsContainer) -> None:
@@ -137,7 +144,7 @@ def goal(parser: Parser, nargs: str | None = None, note: str = "") -> None:
 
 def goals_file(parser: Parser) -> None:
     """Add a file of goals."""
-    parser.add_argument("--goals", metavar="FILE", help="goals, a JSON list")
+    parser.add_argument("--goals", metavar="FILE", help="goals: JSON, FOON text, or labels")
 
 
 def method(parser: Parser) -> None:

@@ -45,14 +45,7 @@ def configure(parser: Parser) -> None:
         "--adjacent", action="store_true", help="only the next word of an order may follow, not any later one"
     )
     group = parser.add_argument_group("kitchen")
-    group.add_argument(
-        "--kitchen",
-        metavar="FILE",
-        help="objects at hand, a JSON list (default: what no unit of the trees makes)",
-    )
-    group.add_argument("--utensils", metavar="FILE", help="utensil labels, one a line")
-    group.add_argument("--rates", metavar="FILE", help="success rates, lines of motion<tab>rate")
-    group.add_argument("--default-rate", type=add.chance, metavar="P", help="rate of motions without one")
+    add.kitchen(group, " (default: what no unit of the trees makes)")
     group.add_argument("--strict", action="store_true", help="need every input, implied views too")
     group.add_argument(
         "--match-relations",
