@@ -66,11 +66,18 @@ def _listed_units(value: Any) -> int:
         return 1
     if isinstance(value.get("functional_units"), list):
         return _listed_units(value["functional_units"])
-    return sum(_listed_units(each) for each in value.values() if _may_list_units(each))
+    return sum(_listed_units(each) for each in value.values() if _may_list_units(each) and _has_object(each))
 
 
 def _may_list_units(value: Any) -> bool:
     return isinstance(value, list) and bool(value) and isinstance(value[0], list | dict)
+
+
+def _has_object(value: Any) -> bool:
+    """Whether what stands first in lists is an object: any key may wrap units, but not all hold them."""
+    while isinstance(value, list) and value:
+        value = value[0]
+    return isinstance(value, dict)
 
 
 def meaning(foon: Foon) -> tuple[list[ObjectNode], list[tuple[Any, ...]]]:
