@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import json
 import math
+import queue
 import re
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -101,14 +103,12 @@ def graphviz(text: str, form: str, program: str = "dot") -> bytes:
     Raises `QueryError` if it cannot be had, and `LimitReachedError`: then its process is ended.
     """
     start = "import sys; sys.path[:] = sys.argv[3:]; from foon_asp.draw.worker import main; main()"
-    question: bytes | None = text.encode()
+    answers: queue.SimpleQueue[tuple[bytes, bytes]] = queue.SimpleQueue()
 
     def look(seconds: float) -> tuple[bytes, bytes] | None:
-        nonlocal question
         try:
-            return child.communicate(question, timeout=seconds)
-        except subprocess.TimeoutExpired:
-            question = None
+            return answers.get(timeout=seconds)
+        except queue.Empty:
             return None
 
     seconds = limits.seconds_left()
@@ -122,11 +122,15 @@ def graphviz(text: str, form: str, program: str = "dot") -> bytes:
         # Ctrl-C is for the process that asks.
         start_new_session=True,
     ) as child:
+        # A thread of its own: `communicate` with a timeout forgets what of the input it has not written yet.
+        asking = threading.Thread(target=lambda: answers.put(child.communicate(text.encode())), daemon=True)
+        asking.start()
         try:
             with limits.waiting():
                 data, said = limits.wait_for(look, child.pid, deadline)
         finally:
             child.kill()
+            asking.join()
     return _checked(child.returncode, data, said)
 
 

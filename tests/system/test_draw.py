@@ -233,6 +233,18 @@ def test_where_graphviz_is_not_there_a_line_says_what_to_install(
     assert "crank" in answer._repr_html_()
 
 
+def test_a_process_that_reads_late_is_given_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """More than a pipe holds, after more than one look whether it is done."""
+    late = (
+        "import time\ntime.sleep(0.5)\nclass AGraph:\n"
+        "    def __init__(self, string): self.string = string\n"
+        "    def draw(self, format, prog): return self.string.encode()[::-1]\n"
+    )
+    _pretend(tmp_path, monkeypatch, late)
+    text = "digraph { } " * 100_000
+    assert graphviz(text, "json0") == text.encode()[::-1]
+
+
 def test_a_layout_ends_with_the_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     waits = "import time\nclass AGraph:\n    def __init__(self, string): time.sleep(1000)\n"
     _pretend(tmp_path, monkeypatch, waits)
