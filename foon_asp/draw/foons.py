@@ -10,10 +10,12 @@ from foon_asp.draw import words
 from foon_asp.draw.picture import Edge, Node, Picture, Role
 from foon_asp.draw.units import Drawn, Scene, drawn, is_tool
 from foon_asp.errors import QueryError
+from foon_asp.io.kitchen import read_labels
 from foon_asp.model.node import ObjectId, ObjectNode, UnitId
 from foon_asp.model.world import World
 from foon_asp.query.method import Method
 from foon_asp.query.query import Query
+from foon_asp.resources import built_in_data
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.suggest import find_dishes
 from foon_asp.retrieval.tree import TaskTree
@@ -30,6 +32,11 @@ _TITLE = 90
 
 _DISHES, _SHARED = 32, 28
 """How many dishes an overview has, and how many things that they share."""
+
+
+def usual_utensils() -> frozenset[str]:
+    """Return the labels of utensils where nobody says them: those of the built-in data."""
+    return read_labels(built_in_data() / "utensils.txt")
 
 
 def foon_picture(world: World) -> Picture:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sized
 
 from foon_asp.draw.checks import check_picture, side_by_side
 from foon_asp.draw.comparing import Version, comparison_picture
-from foon_asp.draw.foons import MOST_UNITS, around_picture, foon_picture
+from foon_asp.draw.foons import MOST_UNITS, around_picture, foon_picture, usual_utensils
 from foon_asp.draw.formats import Drawing
 from foon_asp.draw.fronts import front_picture
 from foon_asp.draw.menus import menu_picture
@@ -87,8 +87,9 @@ def world_drawing(
 
 
 def foon_drawing(foon: Foon, around: Named | None = None, hops: int = 1, dark: bool | None = None) -> Drawing:
-    """Return a FOON as a picture, or what is around an object of it."""
-    return world_drawing(World.of(foon, Kitchen((), stated=False)), around, hops, dark)
+    """Return a FOON as a picture, or what is around an object of it; utensils are the usual ones."""
+    world = World.of(foon, Kitchen((), usual_utensils(), stated=False))
+    return world_drawing(world, around, hops, dark)
 
 
 def svg_unasked(units: Sized, draw: Callable[[], Drawing]) -> str | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -16,7 +16,7 @@ from foon_asp.cli.parser import Parser
 from foon_asp.cli.question import question
 from foon_asp.draw.checks import check_picture, side_by_side
 from foon_asp.draw.comparing import Version, comparison_picture
-from foon_asp.draw.foons import MOST_UNITS, around_picture, foon_picture
+from foon_asp.draw.foons import MOST_UNITS, around_picture, foon_picture, usual_utensils
 from foon_asp.draw.formats import Drawing, Format, format_of
 from foon_asp.draw.fronts import front_picture
 from foon_asp.draw.menus import menu_picture
@@ -199,7 +199,10 @@ class _Drawn:
         if not options.trees:
             return open_world(options)
         options.files = options.trees
-        return load_data(options).world()
+        dataset = load_data(options)
+        if not dataset.kitchen.utensils:
+            dataset = replace(dataset, kitchen=replace(dataset.kitchen, utensils=usual_utensils()))
+        return dataset.world()
 
     def _of_goals(self) -> Picture:
         options, goals = self.options, named_goals(self.options)
