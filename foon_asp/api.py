@@ -31,9 +31,6 @@ from foon_asp.model.node import Annotation, ObjectId, ObjectNode, UnitId, check_
 from foon_asp.model.relations import Matching
 from foon_asp.model.world import World as ModelWorld
 from foon_asp.numbers import COUNT, SOME
-from foon_asp.planning.answer import PlanAnswer
-from foon_asp.planning.planner import plan
-from foon_asp.planning.query import OWN_ENGINE, PlanQuery
 from foon_asp.query.constraints import Constraints
 from foon_asp.query.goals import Named, find_object, written_object
 from foon_asp.query.kitchen_change import KitchenChange
@@ -61,6 +58,7 @@ from foon_asp.words import shortened
 
 if TYPE_CHECKING:
     from foon_asp.draw.formats import Drawing
+    from foon_asp.planning.answer import PlanAnswer
 
 Asked = Query | Named
 """A question; a goal alone, as a text or an object node, asks for its best tree."""
@@ -209,7 +207,7 @@ class World:
         self,
         query: Asked,
         *,
-        engine: str = OWN_ENGINE,
+        engine: str = "clingo",
         semantics: str = "consume",
         max_steps: int | None = None,
     ) -> PlanAnswer:
@@ -217,6 +215,10 @@ class World:
 
         `engine` is clingo or one that unified-planning finds; clingo tries `max_steps` parallel steps.
         """
+        # It takes 50 ms to import, of 400 for all of this, and few programs plan.
+        from foon_asp.planning.planner import plan
+        from foon_asp.planning.query import PlanQuery
+
         return plan(self._world, PlanQuery(Query.of(query), engine, semantics, max_steps))
 
     def explain(self, query: Asked, *, most: int = 1) -> Explanation:

@@ -6,7 +6,7 @@ from foon_asp.draw.picture import Picture
 from foon_asp.draw.trees import tree_picture
 from foon_asp.errors import QueryError
 from foon_asp.retrieval.menu import Menu
-from foon_asp.words import cut
+from foon_asp.words import cut, listed
 
 _NAME = 20
 """How many letters of a dish are said above a step."""
@@ -24,5 +24,5 @@ def menu_picture(menu: Menu) -> Picture:
         if several and len(dishes) == len(goals):
             marks[unit] = "for all"
         elif several and dishes:
-            marks[unit] = "for " + ", ".join(cut(dish.label, _NAME) for dish in dishes)
+            marks[unit] = f"for {listed([cut(dish.label, _NAME) for dish in dishes])}"
     return tree_picture(tree, marks)

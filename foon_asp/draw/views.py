@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sized
+from collections.abc import Callable, Sequence, Sized
 
 from foon_asp.draw.checks import check_picture, side_by_side
 from foon_asp.draw.comparing import Version, comparison_picture
@@ -23,7 +23,7 @@ from foon_asp.planning.plan import Plan
 from foon_asp.query.goals import Named, find_object
 from foon_asp.retrieval.alternatives import Alternatives
 from foon_asp.retrieval.answer import Answer
-from foon_asp.retrieval.check import Checks
+from foon_asp.retrieval.check import Check
 from foon_asp.retrieval.explain import Explanation
 from foon_asp.retrieval.menu import Menu
 from foon_asp.retrieval.tree import TaskTree
@@ -64,9 +64,9 @@ def explanation_drawing(found: Explanation, dark: bool | None = None) -> Drawing
     return Drawing(missing_picture(found), dark)
 
 
-def checks_drawing(checks: Checks, dark: bool | None = None) -> Drawing:
+def checks_drawing(checks: Sequence[Check], dark: bool | None = None) -> Drawing:
     """Return trees with their faults as a picture; raise `QueryError` if there are none."""
-    if not checks.found:
+    if not len(checks):
         raise QueryError("no tree was looked at before the limit")
     return Drawing(side_by_side([check_picture(each) for each in checks]), dark)
 

@@ -150,6 +150,12 @@ class Check:
         verdict = "executable" if self.executable else "NOT EXECUTABLE"
         return f"<Check: {self.name}, {counted(len(self.steps), 'step')}, {verdict}>"
 
+    def draw(self, *, dark: bool | None = None) -> Drawing:
+        """Return the tree as a picture, with what is wrong with it."""
+        from foon_asp.draw.views import checks_drawing
+
+        return checks_drawing((self,), dark)
+
     @property
     def name(self) -> str:
         """The file of the tree, with its place there if there are several."""
