@@ -40,7 +40,8 @@ def _lines(picture: Picture, colours: Colours, bare: bool) -> Iterator[str]:
 def _graph(picture: Picture, colours: Colours, bare: bool) -> dict[str, str]:
     found = {"rankdir": "LR" if picture.sideways else "TB", "nodesep": "0.22", "ranksep": f"{picture.gap:g}"}
     if picture.settled:
-        found["splines"] = "line"
+        # Whatever program of Graphviz is asked leaves everything where it is.
+        found |= {"layout": "nop", "splines": "line"}
     if bare:
         return found
     return {

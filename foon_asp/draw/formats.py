@@ -83,7 +83,11 @@ class Drawing:
         return dot_text(self.picture, DARK if self.dark else LIGHT)
 
     def to_mermaid(self) -> str:
-        """Return it as a flow chart of Mermaid."""
+        """Return it as a flow chart of Mermaid; raise `QueryError` for a plot, which is none."""
+        if self.picture.settled:
+            raise QueryError(
+                "a plot is no flow chart, and Mermaid draws nothing else here; take another format"
+            )
         return mermaid_text(self.picture, DARK if self.dark else LIGHT)
 
     def written(self, form: Format) -> str | bytes:

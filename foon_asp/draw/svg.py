@@ -44,7 +44,9 @@ class _Svg:
         width = max(layout.width, text_width(picture.title) * _TITLE * 1.08 + 24)
         height = layout.height + above
         size = {"width": _n(width), "height": _n(height), "viewBox": f"0 0 {_n(width)} {_n(height)}"}
-        root = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, "role": "img"})
+        root = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size})
+        # Who listens to an image hears nothing of the links in it.
+        root.set("role", "group" if any(node.url for node in picture.nodes) else "img")
         root.set("font-family", FONTS)
         if picture.title:
             SubElement(root, "title").text = legal(picture.title)
