@@ -28,7 +28,7 @@ def retrieve(world: World, goal: ObjectNode, heuristic: str) -> list[UnitId]:
         candidates = [
             unit
             for unit in world.foon.units
-            if any(objects[output].states and objects[output] == thing for output in unit.outputs)
+            if any(objects[output] == thing for output in unit.outputs) and _makes(world, unit, thing)
         ]
         if not candidates:
             continue
@@ -41,6 +41,12 @@ def retrieve(world: World, goal: ObjectNode, heuristic: str) -> list[UnitId]:
             if other not in queue and not _shown_twice(world, other, inputs):
                 queue.append(other)
     return tree
+
+
+def _makes(world: World, unit: FunctionalUnit, output: ObjectNode) -> bool:
+    """Say whether an output has states, or else is neither a utensil nor called like an input."""
+    before = [world.foon.objects[number].label for number in unit.inputs]
+    return bool(output.states) or not (output.label in world.kitchen.utensils or output.label in before)
 
 
 def _choose(world: World, candidates: Sequence[FunctionalUnit], heuristic: str) -> FunctionalUnit:
