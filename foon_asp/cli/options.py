@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from foon_asp.cli.parser import Parser
@@ -196,6 +196,21 @@ def semantics(parser: Parser, default: str = "consume") -> None:
         default=default,
         help="what is used up: add: nothing; transform: what becomes or goes into an output; consume: every"
         f" input that is not an output again (default: {default})",
+    )
+
+
+def actions(parser: Parser, styles: Sequence[str], where: str = "") -> None:
+    """Add how actions are written in PDDL; `where` says in which of the answers there are any."""
+    parser.add_argument(
+        "--style",
+        choices=styles,
+        help="how actions are written: with a fluent for each object and an action for each unit (objects), or "
+        f"typed and readable (lifted){where} (default: objects)",
+    )
+    parser.add_argument(
+        "--durative",
+        action="store_true",
+        help=f"durative actions of PDDL 2.1, with annotated times{where}",
     )
 
 

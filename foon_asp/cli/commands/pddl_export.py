@@ -24,16 +24,9 @@ def configure(parser: Parser) -> None:
     """Add the options."""
     add.world(parser)
     add.goal(parser, "*", add.OR_MARKED)
-    parser.add_argument(
-        "--style",
-        choices=STYLES,
-        help="objects (default): a fluent for each object, an action for each unit; lifted: typed, readable",
-    )
     add.semantics(parser)
     add.criterion(parser)
-    parser.add_argument(
-        "--durative", action="store_true", help="durative actions of PDDL 2.1, with annotated times"
-    )
+    add.actions(parser, STYLES)
     parser.add_argument(
         "--dialect",
         choices=("standard", "plansys2"),

@@ -39,12 +39,7 @@ def configure(parser: Parser) -> None:
         "--max-steps", type=add.number, metavar="N", help="parallel steps that clingo tries at most"
     )
     add.limits(parser)
-    parser.add_argument(
-        "--style", choices=STYLES, help="for --format ipc: the style of the export (default: objects)"
-    )
-    parser.add_argument(
-        "--durative", action="store_true", help="for --format ipc: with times, for an export with --durative"
-    )
+    add.actions(parser, STYLES, ", for --format ipc")
     add.output(parser, "text", "json", "foon", "ipc")
 
 
