@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 from foon_asp.errors import FoonWarning, InputError, QueryError
+from foon_asp.io.atomic import write_text
 from foon_asp.io.findings import Finding, Severity
 from foon_asp.io.folder import Dataset, SourceKeys
 from foon_asp.io.folder import load as load_dataset
@@ -36,6 +37,7 @@ from foon_asp.query.goals import Named, find_object, written_object
 from foon_asp.query.kitchen_change import KitchenChange
 from foon_asp.query.objective import Objective
 from foon_asp.query.query import Query
+from foon_asp.render.explorer import explorer_page
 from foon_asp.retrieval.alternatives import (
     Alternatives,
     all_optimal_trees,
@@ -249,6 +251,17 @@ class World:
         listed = self.goals if goals is None else a_list(goals, "goals", "objects")
         wanted = [find_object(self._world, goal) for goal in listed]
         return compare(self._world, wanted, time_limit=time_limit)
+
+    def explore(self, path: str | Path, goals: Iterable[Named] = (), *, title: str = "FOON") -> Path:
+        """Write a page in which a browser searches, plans and draws; return its path.
+
+        `title` names the data. With `goals` it has only the units that can matter for them, for a FOON that
+        is too large for a page. A file of this name is replaced. Raises `QueryError` and `InputError`.
+        """
+        nodes = [find_object(self._world, goal) for goal in a_list(goals, "goals", "objects")]
+        page = explorer_page(self._world, title=title, goals=nodes)
+        write_text(Path(path), page.text)
+        return Path(path)
 
     def answer_many(self, queries: Iterable[Asked], *, jobs: int = 1) -> Iterator[Answer]:
         """Yield the answers to many queries, in order, in so many processes.

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from selenium.webdriver import Chrome
 
 from foon_asp.io.folder import Dataset, load
 from foon_asp.io.open import open_files
 from foon_asp.io.store import write_store
 from foon_asp.model.world import World
 from support import examples
+from support.browser import start
 from support.paths import BUILT_IN
 from support.small_foons import world
 
@@ -22,6 +25,12 @@ settings.load_profile("tests")
 @pytest.fixture(scope="session")
 def built_in() -> Dataset:
     return load()
+
+
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
+    """A browser; it takes a second to start, so all tests of a process share it."""
+    yield from start(tmp_path_factory.mktemp("downloads"))
 
 
 @pytest.fixture

@@ -297,10 +297,18 @@ def output(parser: Parser, *formats: str) -> None:
     messages(group)
 
 
-def files(parser: Parser, name: str, text: str) -> None:
-    """Add which files a command writes itself; `text` says what they are."""
+def files(parser: Parser, name: str, text: str, default: str | None = None) -> None:
+    """Add which files a command writes itself; `text` says what they are. Without a default one is named."""
     group = parser.add_argument_group("output")
-    group.add_argument("-o", "--output", dest="target", required=True, metavar=name, help=f"output, {text}")
+    group.add_argument(
+        "-o",
+        "--output",
+        dest="target",
+        required=default is None,
+        default=default,
+        metavar=name,
+        help=f"output, {text}",
+    )
     overwrite(group)
     messages(group)
 

@@ -43,8 +43,11 @@ def test_no_test_module_is_imported(path: Path) -> None:
     }
 
 
-def test_only_what_needs_the_public_data_is_skipped() -> None:
-    assert [path.relative_to(TESTS).as_posix() for path in MODULES if skips(path)] == ["public/conftest.py"]
+def test_only_what_needs_the_public_data_or_a_browser_is_skipped() -> None:
+    assert [path.relative_to(TESTS).as_posix() for path in MODULES if skips(path)] == [
+        "public/conftest.py",
+        "support/browser.py",
+    ]
 
 
 def test_only_the_public_layer_knows_where_the_public_data_lie() -> None:

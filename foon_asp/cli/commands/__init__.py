@@ -22,6 +22,11 @@ COMMANDS = {
     "query": _command("query", "run rules of your own over the facts"),
     "batch": _command("batch", "answer a file of queries, here or on a cluster"),
     "plan": _command("plan", "plan with things being used up, by any engine"),
+    "explore": _command(
+        "explore",
+        "write a page in which a browser searches, plans and draws",
+        "Write a page with the FOON, the kitchen and the solver, which a browser needs nothing else for.",
+    ),
     "engines": _command("engines", "list planning engines", "List planning engines and how to install them."),
     "pddl": _command("pddl", "write PDDL, read plans", "Write PDDL, and read plans that were made from it."),
     "facts": _command("facts", "print the facts that clingo is given"),
