@@ -25,6 +25,7 @@ from foon_asp.model.node import Annotation, Interval, ObjectNode, Source, State,
 from foon_asp.model.world import World
 from foon_asp.query.query import Query
 from foon_asp.render import explorer as rendered
+from foon_asp.retrieval.menu import plan_menu
 from foon_asp.retrieval.retrieve import retrieve
 from support.browser import AXE, Explorer, lacking, question
 from support.cli import run
@@ -118,8 +119,8 @@ def test_nothing_in_a_file_runs_or_breaks_out(browser: Chrome, tmp_path: Path) -
     page.open(state(where.goals[0]))
     page.settled()
     page.script("document.querySelector('#panel button.motion').click()")
-    shown = page.script("return document.querySelector('.drawer').innerText")
-    assert "javascript:window.broken=5" in shown
+    said = page.script("return document.querySelector('.drawer').innerText")
+    assert "javascript:window.broken=5" in said
     links = page.script("return [...document.querySelectorAll('a')].map(a => a.protocol)")
     assert set(links) <= {"file:"}
     assert page.script("return document.querySelectorAll('img, #app script, #app iframe').length") == 0
@@ -218,6 +219,57 @@ def test_the_state_is_in_the_address(page: Explorer, world: World) -> None:
     page.open(state(ice, by="success", remove="ice crusher"))
     page.settled()
     assert page.script("return document.querySelector('.costs').innerText") == before
+
+
+def press_button(page: Explorer, text: str) -> None:
+    page.script(
+        "[...document.querySelectorAll('#answer button')].find(b => b.textContent === arguments[0]).click()",
+        text,
+    )
+    page.settled()
+
+
+def shown(page: Explorer) -> str:
+    text: str = page.script("return document.querySelector('#answer').innerText")
+    return text
+
+
+def test_it_says_what_is_missing_and_that_helps(page: Explorer, world: World) -> None:
+    page.open(state(goal_of(world, "ice"), kitchen="empty"))
+    page.settled()
+    assert "no task tree" in shown(page)
+    assert "3 objects more would do" in shown(page)
+    press_button(page, "Put them into the kitchen")
+    assert "✓ proven optimal" in shown(page)
+    page.open(state(goal_of(world, "ice"), view="kitchen", add="", kitchen="empty"))
+    assert "0 objects at hand" in shown(page)
+    assert "No longer possible" in shown(page)
+
+
+def test_it_says_which_limits_must_give_way(page: Explorer, world: World) -> None:
+    page.open(
+        state(goal_of(world, "whipped cream"), without="jar", **{"max-units": "6", "avoid-motion": "chill"})
+    )
+    page.settled()
+    assert "What must give way" in shown(page)
+    press_button(page, "Give it up")
+    assert "✓ proven optimal" in shown(page)
+
+
+def test_a_menu_shares_steps(page: Explorer, world: World) -> None:
+    goals = [goal_of(world, "greek salad"), goal_of(world, "tzatziki")]
+    menu = plan_menu(world, Query(*goals))
+    assert menu.together.tree is not None
+    page.open(urlencode([("make", str(goal)) for goal in goals]))
+    page.settled()
+    page.script(
+        "[...document.querySelectorAll('#panel button')].find(b => /sharing/.test(b.textContent)).click()"
+    )
+    page.wait("return document.querySelector('#panel').innerText.includes('so sharing saves')")
+    apart = sum(len(answer.tree or ()) for answer in menu.apart)
+    together = len(menu.together.tree)
+    assert f"with one tree of {together} steps" in shown(page)
+    assert f"so sharing saves {apart - together} step" in shown(page)
 
 
 def test_a_search_can_be_stopped_and_the_next_one_answers(page: Explorer, world: World) -> None:

@@ -39,6 +39,8 @@ def test_wheel_contains_encodings_and_data_and_works(tmp_path: Path) -> None:
         for path in (ROOT / folder).rglob("*"):
             if path.is_file():
                 assert f"foon_asp/{folder}/{path.relative_to(ROOT / folder)}" in names
+    for path in (ROOT / "foon_asp" / "explorer").iterdir():
+        assert f"foon_asp/explorer/{path.name}" in names
     environment = tmp_path / "env"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
     pip = [sys.executable, "-m", "pip", "--python", str(environment / "bin" / "python")]

@@ -111,7 +111,8 @@ export function graphPicture(app: App, graph: Graph, name: string): HTMLElement 
     // What is too small to read is scrolled instead.
     requestAnimationFrame(() => {
       zoom(scale > 0 ? scale : Math.max(0.62, Math.min(1, (frame.clientWidth - 24) / width)));
-      frame.scrollLeft = Number(drawn.dataset.top) * scale - frame.clientWidth / 2;
+      frame.scrollLeft = Number(drawn.dataset.left) * scale - frame.clientWidth / 2;
+      frame.scrollTop = Number(drawn.dataset.top) * scale - frame.clientHeight / 2;
     });
   };
   const known = app.kept.get(key) as SVGSVGElement | undefined;
@@ -126,10 +127,10 @@ export function graphPicture(app: App, graph: Graph, name: string): HTMLElement 
   return h("div", { class: "picture" }, bar, frame);
 }
 
-/** Colours of pictures that are saved; in the page the style sheet has them, for light and dark. */
-const INK = { object: ["#e2f2e4", "#1f6b2d", "#12381a"], kitchen: ["#ffffff", "#6f9c77", "#3c5a41"], motion: ["#b3261e", "#8c1d17", "#ffffff"] } as const;
-/** What two compared trees share is grey. */
-const SHARED = { object: ["#ffffff", "#868f86", "#59625a"], kitchen: ["#ffffff", "#868f86", "#59625a"], motion: ["#59625a", "#59625a", "#ffffff"] } as const;
+/** Fill, outline and letters of pictures that are saved, as `foon-asp draw` has them; the style sheet has those of the page. */
+const INK = { object: ["#2e7d32", "#1b5e20", "#ffffff"], kitchen: ["#e3f3e3", "#4c9a50", "#1c4a1f"], motion: ["#b71c1c", "#7f1010", "#ffffff"] } as const;
+/** What two compared trees share is pale. */
+const SHARED = { object: ["#f0f3f0", "#8a978a", "#3f4a3f"], kitchen: ["#f0f3f0", "#8a978a", "#3f4a3f"], motion: ["#f5efef", "#9c8a8a", "#4f4242"] } as const;
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif";
 const LARGE = 13;
 const SMALL = 11;
@@ -152,7 +153,9 @@ export async function draw(app: App, graph: Graph, name: string): Promise<SVGSVG
 function drawn(app: App, graph: Graph, name: string, { texts, boxes, laid }: { texts: Text[][]; boxes: Box[]; laid: Laid }): SVGSVGElement {
   const margin = 12;
   const [width, height] = [Math.ceil(laid.width) + 2 * margin, Math.ceil(laid.height) + 2 * margin];
-  const top = laid.nodes.reduce((one, other) => (other.y < one.y ? other : one));
+  // What is seen first: where two trees differ, else the top.
+  const differs = graph.nodes.findIndex((node) => node.side === "one" || node.side === "other");
+  const first = laid.nodes[differs] ?? laid.nodes.reduce((one, other) => (other.y < one.y ? other : one));
   const edges = graph.edges.map((edge, place) => {
     const { points, end } = laid.edges[place]!;
     const apart = edge.side === "one" || edge.side === "other";
@@ -162,7 +165,7 @@ function drawn(app: App, graph: Graph, name: string, { texts, boxes, laid }: { t
   const nodes = graph.nodes.map((node, place) => nodeElement(app, node, texts[place]!, boxes[place]!, laid.nodes[place]!));
   return svg(
     "svg",
-    { xmlns: "http://www.w3.org/2000/svg", viewBox: `${-margin} ${-margin} ${width} ${height}`, width, height, role: "group", "aria-label": name, "font-family": FONT, "data-top": top.x },
+    { xmlns: "http://www.w3.org/2000/svg", viewBox: `${-margin} ${-margin} ${width} ${height}`, width, height, role: "group", "aria-label": name, "font-family": FONT, "data-left": first.x, "data-top": first.y },
     edges,
     nodes,
   );
@@ -259,7 +262,7 @@ function arrow(from: Point, to: Point): string {
 export function standalone(picture: SVGSVGElement): string {
   const copy = picture.cloneNode(true) as SVGSVGElement;
   copy.removeAttribute("style");
-  for (const name of ["data-scale", "data-top"]) copy.removeAttribute(name);
+  for (const name of ["data-scale", "data-left", "data-top"]) copy.removeAttribute(name);
   for (const node of copy.querySelectorAll("[tabindex], [data-key]")) for (const name of ["tabindex", "data-key", "role"]) node.removeAttribute(name);
   return new XMLSerializer().serializeToString(copy);
 }
