@@ -82,11 +82,31 @@ export function replay(readings: Readings, stock: Has, goals: readonly number[],
   return { executable: lacking.length === 0, failedAt: null, missing: lacking };
 }
 
+/** For each object the unit that makes it first, given the rounds in which units are executed. */
+function firstMakers(readings: Readings, executable: ReadonlyMap<number, number>): { order: number[]; maker: Map<number, number> } {
+  const order = [...executable.keys()].sort((one, other) => executable.get(one)! - executable.get(other)! || one - other);
+  const maker = new Map<number, number>();
+  for (const unit of order) for (const made of readings.makes[unit]!) if (!maker.has(made)) maker.set(made, unit);
+  return { order, maker };
+}
+
+/** Those of some units by which the goals are made first: a tree, if not a best one. Mirrors `retrieval/prune.py`. */
+export function leading(readings: Readings, stock: ReadonlySet<number>, goals: readonly number[], units: readonly number[]): Set<number> {
+  const { maker } = firstMakers(readings, within(readings, stock, units).executable);
+  const kept = new Set<number>();
+  const wanted = [...goals];
+  for (let object = wanted.pop(); object !== undefined; object = wanted.pop()) {
+    const unit = maker.get(object);
+    if (stock.has(object) || unit === undefined || kept.has(unit)) continue;
+    kept.add(unit);
+    wanted.push(...readings.needs[unit]!);
+  }
+  return kept;
+}
+
 /** Units in the order of execution; steps that lead to the same object stand together. Mirrors `retrieval/tree.py`. */
 export function inOrder(readings: Readings, stock: Has, goals: readonly number[], executable: ReadonlyMap<number, number>): number[] {
-  const rest = [...executable.keys()].sort((one, other) => executable.get(one)! - executable.get(other)! || one - other);
-  const maker = new Map<number, number>();
-  for (const unit of rest) for (const made of readings.makes[unit]!) if (!maker.has(made)) maker.set(made, unit);
+  const { order: rest, maker } = firstMakers(readings, executable);
   const first = goals.filter((goal) => maker.has(goal)).map((goal) => maker.get(goal)!);
   const stack = [...rest.slice().reverse(), ...first.reverse()];
   const placed = new Set<number>();

@@ -41,6 +41,8 @@ export interface Answer {
   readonly reason: Reason | null;
   /** Whether there are known to be no more trees. */
   readonly complete: boolean;
+  /** What is proven of the first criterion where a search was stopped; null if nothing is. */
+  readonly bound: number | null;
   /** Milliseconds. */
   readonly time: number;
 }

@@ -3,7 +3,7 @@
  * `retrieval/`, and the replay that every tree passes before it is returned.
  */
 
-import { backward } from "../foon/graph";
+import { backward, leading } from "../foon/graph";
 import { treeOf, type Criterion, type Tree } from "../foon/tree";
 import type { World } from "../foon/world";
 import type { Encodings } from "./encodings";
@@ -11,14 +11,19 @@ import { facts, finerFacts } from "./facts";
 import { Problem, named, type NamedConstraint } from "./problem";
 import type { Answer, Query, Reason } from "./query";
 import { Stopped, column, texts, type Model, type Solver } from "./solver";
-import { tariffOf, type Tariff } from "./tariff";
+import { boundOf, tariffOf, type Tariff } from "./tariff";
 import { Lack, circles } from "./lack";
 
 const OPTIMISE = "--opt-strategy=usc,oll,stratify";
 const MOST_POINTS = 200;
 
-/** Hears of trees that are better than those before, while better ones are looked for. */
-export type OnBetter = (tree: Tree) => void;
+/** How far a search is: the best tree so far, and what is proven of the first criterion. */
+export interface Progress {
+  readonly better: Tree | null;
+  readonly bound: number | null;
+}
+
+export type OnProgress = (progress: Progress) => void;
 
 export class Retriever {
   constructor(
@@ -28,7 +33,7 @@ export class Retriever {
   ) {}
 
   /** Retrieve task trees; if it is stopped, the best so far. */
-  async retrieve(world: World, query: Query, onBetter?: OnBetter): Promise<Answer> {
+  async retrieve(world: World, query: Query, onProgress?: OnProgress): Promise<Answer> {
     const started = performance.now();
     const problem = this.pose(world, query);
     const found: Tree[] = [];
@@ -38,9 +43,10 @@ export class Retriever {
       trees: found,
       reason,
       complete,
+      bound: status === "limit" ? so.bound : null,
       time: performance.now() - started,
     });
-    let better: Tree | undefined;
+    let so: Progress = { better: null, bound: null };
     try {
       const reason = await this.unreachable(problem);
       if (reason !== null) return ended("unreachable", reason, true);
@@ -48,13 +54,18 @@ export class Retriever {
         const tree = await this.byMethod(problem, query);
         if (tree !== null) found.push(tree);
       } else {
-        for await (const tree of this.best(problem, query, (each) => onBetter?.((better = each)))) found.push(tree);
+        const tell = ({ better, bound }: Progress): void => {
+          so = { better: better ?? so.better, bound: bound ?? so.bound };
+          onProgress?.(so);
+        };
+        tell({ better: easiest(problem), bound: null });
+        for await (const tree of this.best(problem, query, tell)) found.push(tree);
       }
       if (found.length === 0) return ended("unreachable", { kind: "constraints", names: await this.conflict(problem) }, true);
       return ended(query.method === "optimal" ? "optimal" : "found", null, found.length < query.count);
     } catch (error) {
       if (!(error instanceof Stopped)) throw error;
-      if (found.length === 0 && better !== undefined) found.push(better);
+      if (found.length === 0 && so.better !== null) found.push(so.better);
       return ended("limit", null, false);
     }
   }
@@ -89,12 +100,19 @@ export class Retriever {
   }
 
   /** The best trees, the best first: each beside those that are known. */
-  private async *best(problem: Problem, query: Query, onBetter: OnBetter): AsyncGenerator<Tree> {
+  private async *best(problem: Problem, query: Query, onProgress: OnProgress): AsyncGenerator<Tree> {
     const known: string[] = [];
     const every = complete(query.by);
     for (let number = 0; number < query.count; number += 1) {
       const more = number === 0 ? [] : ["retrieval/alternatives.lp"];
-      const model = await this.optimum(problem, every, more, known.join(""), (each) => onBetter(this.decode(problem, each)));
+      // What is proven of a further tree says nothing of the first.
+      const [first] = number === 0 ? [tariffOf(problem, every[0]!)] : [];
+      const model = await this.optimum(problem, every, more, known.join(""), (each) =>
+        onProgress({
+          better: each.atoms === null ? null : this.decode(problem, each),
+          bound: first === undefined || each.lower[0] === undefined ? null : boundOf(first, each.lower[0]),
+        }),
+      );
       if (model.atoms === null) return;
       const tree = this.decode(problem, model);
       yield tree;
@@ -211,7 +229,13 @@ export class Retriever {
   }
 }
 
-/** The units that can be left out of the steps that several goals share: for each unit the goals that it is for. */
+/** Some tree at once, so that there is one however long a best one is looked for; none where there are limits. */
+function easiest({ world, goals, units, founded, constraints }: Problem): Tree | null {
+  if (!founded || constraints.length > 0) return null;
+  return treeOf(world, goals, leading(world.readings, world.stock, goals, units));
+}
+
+/** Which goals each unit of a tree is for. */
 export function dishesOf(world: World, tree: Tree): Map<number, number[]> {
   const found = new Map<number, number[]>(tree.units.map((unit) => [unit, []]));
   const among = new Set(tree.units);

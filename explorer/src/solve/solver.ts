@@ -6,6 +6,8 @@ import type { Ask, Heard } from "./worker";
 export interface Model {
   readonly atoms: readonly string[] | null;
   readonly costs: readonly number[];
+  /** What is proven of the costs so far, from the highest priority down. */
+  readonly lower: readonly number[];
   readonly proven: boolean;
   readonly seconds: number;
 }
@@ -32,7 +34,7 @@ export class Solver {
     private readonly wasm: Promise<WebAssembly.Module>,
   ) {}
 
-  /** Solve a program; `onModel` hears of each model that is better than those before. */
+  /** Solve a program; `onModel` hears of each model that is better than those before, and of each better bound. */
   run(program: string, options: string, onModel?: (model: Model) => void): Promise<Model> {
     const stops = this.stops;
     const ended = this.queue.then(async () => {
@@ -57,7 +59,7 @@ export class Solver {
       this.worker.postMessage(wasm);
     }
     const worker = this.worker;
-    let best: Model = { atoms: null, costs: [], proven: false, seconds: 0 };
+    let best: Model = { atoms: null, costs: [], lower: [], proven: false, seconds: 0 };
     try {
       return await new Promise<Model>((resolve, reject) => {
         this.abort = reject;
@@ -65,6 +67,9 @@ export class Solver {
         worker.onmessage = ({ data }: MessageEvent<Heard>): void => {
           if (data.kind === "model") {
             best = { ...best, atoms: data.atoms, costs: data.costs };
+            onModel?.(best);
+          } else if (data.kind === "bound") {
+            best = { ...best, lower: data.lower };
             onModel?.(best);
           } else if (data.kind === "error") reject(new Error(data.message));
           else resolve({ ...best, proven: PROVEN.has(data.result) || (data.result === "SATISFIABLE" && best.costs.length === 0), seconds: data.seconds });

@@ -62,3 +62,11 @@ function decimals(value: number): number {
   for (let digits = 0; digits < 15; digits += 1) if (Number.isInteger(Number((value * 10 ** digits).toPrecision(15)))) return digits;
   return 15;
 }
+
+/** What a sum of payments proves of every tree: a chance that none exceeds, else a cost that all have. */
+export function boundOf(tariff: Tariff, paid: number): number {
+  // Every tree pays a base of one, so that clingo has a place for its costs.
+  const least = Math.max(0, paid - 1);
+  if (tariff.criterion === "success") return tariff.ruin > 0 && paid >= tariff.ruin ? 0 : Math.exp(-least / tariff.nat);
+  return least / tariff.grain;
+}

@@ -11,6 +11,7 @@ export interface Ask {
 
 export type Heard =
   | { readonly kind: "model"; readonly atoms: readonly string[]; readonly costs: readonly number[] }
+  | { readonly kind: "bound"; readonly lower: readonly number[] }
   | { readonly kind: "done"; readonly result: string; readonly seconds: number }
   | { readonly kind: "error"; readonly message: string };
 
@@ -25,6 +26,7 @@ const createClingo: (parameters: Parameters) => Promise<ClingoModule> = clingoMo
 interface Found {
   readonly Value?: string[];
   readonly Costs?: number[];
+  readonly Lower?: number[];
 }
 
 let compiled: WebAssembly.Module | undefined;
@@ -48,6 +50,7 @@ async function solve({ program, options }: Ask): Promise<void> {
   const errors: string[] = [];
   const parser = new WitnessParser((found: Found) => {
     if (found.Value !== undefined) say({ kind: "model", atoms: found.Value, costs: found.Costs ?? [] });
+    else if (found.Lower !== undefined) say({ kind: "bound", lower: found.Lower });
   });
   // A fresh instance for each program: what one run leaves behind must not reach the next.
   const clingo = await createClingo({

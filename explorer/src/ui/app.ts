@@ -3,11 +3,10 @@
 import type { PageData } from "../foon/data";
 import { FileError, withFoon } from "../foon/read";
 import { World } from "../foon/world";
-import type { Tree } from "../foon/tree";
 import { Index } from "../search";
 import { FREE, type Constraints } from "../solve/problem";
 import type { Answer, Query } from "../solve/query";
-import type { Retriever } from "../solve/retrieve";
+import type { Progress, Retriever } from "../solve/retrieve";
 import type { Solver } from "../solve/solver";
 import { QueryError } from "../solve/tariff";
 import { AS_IT_IS, START, readState, writeState, type KitchenChange, type State } from "../state";
@@ -19,7 +18,7 @@ import { about, header } from "./header";
 
 export interface Running {
   readonly since: number;
-  better: Tree | undefined;
+  progress: Progress;
 }
 
 export class App {
@@ -172,12 +171,12 @@ export class App {
       this.showAnswer();
       return;
     }
-    const running: Running = { since: performance.now(), better: undefined };
+    const running: Running = { since: performance.now(), progress: { better: null, bound: null } };
     this.running = running;
     this.showAnswer();
     this.tick();
     try {
-      const answer = await this.retriever.retrieve(this.world, this.query(), (tree) => (running.better = tree));
+      const answer = await this.retriever.retrieve(this.world, this.query(), (progress) => (running.progress = progress));
       if (this.running !== running) return;
       this.answer = answer;
       this.say(spoken(answer));

@@ -4,7 +4,7 @@ import type { Tree } from "../foon/tree";
 import { VIEWS, type View } from "../state";
 import type { App } from "./app";
 import { compareView } from "./compare";
-import { button, counted, h } from "./dom";
+import { button, h } from "./dom";
 import { kitchenView } from "./kitchen";
 import { pictureView } from "./picture";
 import { startView } from "./start";
@@ -57,11 +57,20 @@ function searching(app: App): HTMLElement {
   );
 }
 
-function progressText({ running }: App): string {
+function progressText(app: App): string {
+  const { running } = app;
   const seconds = running === undefined ? 0 : (performance.now() - running.since) / 1000;
-  const better = running?.better;
-  const said = better === undefined ? "No tree so far." : `The best so far has ${counted(better.units.length, "step")}; whether there is a better one is open.`;
-  return `Searching for ${seconds.toFixed(1)} s. ${said}`;
+  const [first = "units"] = app.state.by;
+  const better = running?.progress.better;
+  const said = better ? `The best tree so far: ${costText(first, better.costs[first])} ${costName(first, better.costs[first])}.` : "No tree so far.";
+  return [`Searching for ${seconds.toFixed(1)} s.`, said, boundText(app, running?.progress.bound ?? null)].join(" ").trim();
+}
+
+/** What is proven of every tree by the first criterion. */
+function boundText(app: App, bound: number | null): string {
+  const [first = "units"] = app.state.by;
+  if (bound === null || (first !== "success" && bound === 0)) return "";
+  return `Proven: ${first === "success" ? "at most" : "at least"} ${costText(first, bound)} ${costName(first, bound)}.`;
 }
 
 /** Bring the progress that is shown up to date; false if none is shown. */
@@ -77,7 +86,7 @@ function badge(app: App, tree: Tree): HTMLElement {
     answer?.status === "optimal"
       ? h("span", { class: "badge good" }, "✓ proven optimal")
       : answer?.status === "limit"
-        ? h("span", { class: "badge" }, "stopped: not proven")
+        ? h("span", { class: "badge" }, `stopped. ${boundText(app, answer.bound) || "Nothing is proven."}`)
         : h("span", { class: "badge" }, "found, not proven");
   return h(
     "div",
