@@ -28,9 +28,9 @@ def built_in() -> Dataset:
 
 
 @pytest.fixture(scope="session")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
+def browser() -> Iterator[Chrome]:
     """A browser; it takes a second to start, so all tests of a process share it."""
-    yield from start(tmp_path_factory.mktemp("downloads"))
+    yield from start()
 
 
 @pytest.fixture

@@ -115,7 +115,7 @@ def test_the_page_answers_as_python_does(
 def test_the_page_reads_units_as_python_does(
     explorer: Explorer, posed: tuple[World, ObjectNode], level: int, loose: bool
 ) -> None:
-    full, _ = posed
+    full, goal = posed
     where = World.of(
         full.foon,
         full.kitchen,
@@ -131,3 +131,10 @@ def test_the_page_reads_units_as_python_does(
     assert {n: depth for n, depth in reached.items() if depth} == {
         n: depth for n, depth in where.closure.available.items() if depth
     }
+    seen = where.project(goal)
+    [answer] = explorer.ask_all(where, [question(seen)])
+    expected = retrieve(where, Query(seen))
+    assert answer.get("status") == expected.status, answer
+    if expected.tree is not None:
+        assert answer["trees"][0]["costs"]["units"] == len(expected.tree)
+        assert answer["trees"][0]["executable"]

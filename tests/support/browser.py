@@ -22,6 +22,17 @@ from support.paths import ROOT
 
 AXE = ROOT / "explorer" / "node_modules" / "axe-core" / "axe.min.js"
 _PATIENCE = 250
+"""Seconds after which a script that does not end is an error; on a busy machine some take a while."""
+
+_ARGUMENTS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--no-first-run",
+)
 
 FREE: Mapping[str, Any] = {
     "without": [],
@@ -43,7 +54,7 @@ def lacking(what: str, advice: str) -> None:
     pytest.skip(f"no {what}: {advice}")
 
 
-def start(downloads: Path) -> Iterator[Chrome]:
+def start() -> Iterator[Chrome]:
     """Start a browser without a window, and end it."""
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     driver = shutil.which("chromedriver")
@@ -52,9 +63,8 @@ def start(downloads: Path) -> Iterator[Chrome]:
         return
     options = Options()
     options.binary_location = chromium
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"):
+    for argument in _ARGUMENTS:
         options.add_argument(argument)
-    options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     browser = Chrome(options=options, service=Service(driver))
     try:

@@ -4,6 +4,7 @@ import type { Tree } from "../foon/tree";
 import { VIEWS, type View } from "../state";
 import type { App } from "./app";
 import { compareView } from "./compare";
+import { showObject } from "./detail";
 import { button, h } from "./dom";
 import { kitchenView } from "./kitchen";
 import { pictureView } from "./picture";
@@ -34,13 +35,21 @@ export function mainView(app: App): (Node | false)[] {
 
 function answered(app: App): Node[] {
   const { answer, running } = app;
-  const head = h("div", { class: "headline" }, app.goals.map((goal) => h("h2", {}, h("span", { class: "label" }, app.world.node(goal).label), " ", h("span", { class: "states" }, writeStates(app.world.node(goal))))));
+  const head = h("div", { class: "headline" }, app.goals.map((goal) => headlineOf(app, goal)));
   if (app.trouble !== "") return [head, h("p", { class: "card trouble" }, app.trouble)];
   if (answer === undefined) return [head, running === undefined ? h("p", {}) : searching(app)];
   if (answer.status === "unreachable") return [head, ...whyNot(app, answer)];
   const tree = shownTree(app);
   if (tree === undefined) return [head, h("p", { class: "card" }, "It was stopped before there was a tree. ", button("Ask again", () => app.again()))];
   return [head, badge(app, tree), ...treeChoice(app), tabs(app), panel(app, tree)];
+}
+
+function headlineOf(app: App, goal: number): Node[] {
+  const node = app.world.node(goal);
+  return [
+    h("h2", {}, h("span", { class: "label" }, node.label), " ", h("span", { class: "states" }, writeStates(node))),
+    h("button", { type: "button", class: "plain about-it", "data-key": `about-${goal}`, click: () => showObject(app, goal) }, "Who makes it, and who needs it"),
+  ];
 }
 
 /** The tree that is looked at. */
