@@ -156,7 +156,6 @@ def test_data_that_a_worker_cannot_open_end_the_run(
     cluster: Cluster, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "FOON.txt").write_text("not a FOON\n", encoding="utf-8")
-    (tmp_path / "kitchen.json").write_text("[]", encoding="utf-8")
     queries, out = write_queries(tmp_path / "q.jsonl", [{"goal": "ice"}]), tmp_path / "o.jsonl"
     command = ["batch", "--queries", queries, "-o", out, "--data", tmp_path]
     status, _, err = run(capsys, *command, "--scheduler", cluster.address)

@@ -67,11 +67,8 @@ def run(options: argparse.Namespace) -> Reply:
     refuse_inputs(files_of(target), paths_to_read(options))
     queries = QueryFile.scan(Path(options.queries))
     data = sources(options)
-    if not options.quiet:
-        # Those who answer cannot tell what is lost.
-        open_foon(options, [Path(path) for path in data.foon])
-    if data.kitchen is None:
-        note_kitchen(options)
+    # Those who answer cannot tell.
+    open_foon(options, [Path(path) for path in data.foon])
     settings = Settings(options.time_limit, options.memory_limit, options.timings)
     jobs = min(options.jobs or cores(), queries.queries)
 
@@ -98,4 +95,6 @@ def run(options: argparse.Namespace) -> Reply:
     except KeyboardInterrupt:
         tell("stopped; the same command goes on from here")
         raise
+    if data.kitchen is None:
+        note_kitchen(options)
     return Reply(summary=f"{options.target}: {summary}")
