@@ -15,13 +15,14 @@ from foon_asp.batch.query_file import Chunk, QueryFile
 from foon_asp.batch.rows import Rows
 from foon_asp.batch.run import RunOptions, chunk_size, files_of, run_batch
 from foon_asp.cli import options as add
-from foon_asp.cli.inputs import note_kitchen, open_foon, paths_to_read, sources
+from foon_asp.cli.inputs import load_data, note_kitchen, paths_to_read, sources, tell_labels
 from foon_asp.cli.messages import tell
 from foon_asp.cli.output import STDOUT, Reply, file_to_write
 from foon_asp.cli.parser import Parser, Renamed
 from foon_asp.errors import QueryError
 from foon_asp.io.overwriting import refuse_inputs
 from foon_asp.limits import let_interrupts_finish
+from foon_asp.model.levels import FULL
 
 
 def configure(parser: Parser) -> None:
@@ -67,8 +68,7 @@ def run(options: argparse.Namespace) -> Reply:
     refuse_inputs(files_of(target), paths_to_read(options))
     queries = QueryFile.scan(Path(options.queries))
     data = sources(options)
-    # Those who answer cannot tell.
-    open_foon(options, [Path(path) for path in data.foon])
+    _tell_of(options)
     settings = Settings(options.time_limit, options.memory_limit, options.timings)
     jobs = min(options.jobs or cores(), queries.queries)
 
@@ -98,3 +98,10 @@ def run(options: argparse.Namespace) -> Reply:
     if data.kitchen is None:
         note_kitchen(options)
     return Reply(summary=f"{options.target}: {summary}")
+
+
+def _tell_of(options: argparse.Namespace) -> None:
+    """Read the data, and say what is odd in them: those who answer cannot tell."""
+    dataset = load_data(options)
+    if dataset.kitchen.labels:
+        tell_labels(options, dataset, dataset.world(level=FULL))
