@@ -14,7 +14,12 @@ from pathlib import Path
 import psutil
 import pytest
 
+from foon_asp.batch.answerer import Settings
+from foon_asp.batch.cluster import Scheduler, answer_on_cluster
+from foon_asp.batch.query_file import QueryFile
 from foon_asp.batch.tasks import DIED
+from foon_asp.errors import QueryError
+from foon_asp.io.folder import Sources
 from foon_asp.io.open import open_files
 from foon_asp.io.store import write_store
 from support.batch_runs import Drawn, busy, many, program, read_rows, rows_in, started, until, write_queries
@@ -152,17 +157,21 @@ def test_results_name_files_as_the_local_run_does(
     until(lambda: not list(cluster.folder.rglob("foon-asp-*")))
 
 
-def test_data_that_a_worker_cannot_open_end_the_run(
+def test_data_that_cannot_be_opened_end_the_run(
     cluster: Cluster, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """The command looks at them first; a worker that cannot read them says so, too."""
     (tmp_path / "FOON.txt").write_text("not a FOON\n", encoding="utf-8")
     queries, out = write_queries(tmp_path / "q.jsonl", [{"goal": "ice"}]), tmp_path / "o.jsonl"
     command = ["batch", "--queries", queries, "-o", out, "--data", tmp_path]
     status, _, err = run(capsys, *command, "--scheduler", cluster.address)
     assert (status, err.count("\n")) == (2, 1)
-    assert "a worker cannot answer" in err
     assert "not a FOON file" in err
     assert sorted(path.name for path in tmp_path.iterdir()) == ["FOON.txt", "q.jsonl"]
+    chunks = QueryFile.scan(queries).chunks(1, lambda _: False)
+    answers = answer_on_cluster(Sources.of(tmp_path), Settings(), chunks, Scheduler(cluster.address))
+    with pytest.raises(QueryError, match=r"a worker cannot answer: .*not a FOON file"):
+        list(answers)
 
 
 def test_a_cluster_that_is_not_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
