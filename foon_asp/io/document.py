@@ -17,6 +17,8 @@ from foon_asp.io.mend import ANY_ID
 _SPACE = re.compile(r"[ \t\r\n]*")
 _VALUE = re.compile(r"[\[{](?=\s*[\[{\"])")
 """Where a value begins that may hold items, in a text that is not all JSON."""
+_TEXTS = re.compile(r"[\[\s]*\"")
+"""A list, or lists in lists, that begin with a text."""
 _JSON = re.compile(r"[\s\x00-\x1f\x7f-\x9f\ufeff]*[\[{]")
 _OF_TEXT = re.compile(rf"(?:\A|[\r\n])[^\w\r\n]*(?:[OM]{ANY_ID}(?:[\t \r\n]|\Z)|[om]{ANY_ID}\t)")
 """A line of FOON text that is an object or a motion."""
@@ -228,7 +230,7 @@ class Document:
         try:
             value = self._value()
         except json.JSONDecodeError:
-            cut = _Wrapped(place, texts=self._kind.texts and not _VALUE.match(self._text, place))
+            cut = _Wrapped(place, texts=self._kind.texts and bool(_TEXTS.match(self._text, place)))
             self._read_wrapped([*wrapped, cut])
             raise
         if held := self._held(value):

@@ -127,7 +127,7 @@ def test_what_lies_beside_an_input_may_be_written(
     before = snapshot(house)
     for command, target in (
         (["retrieve", "ice", "--data", "data"], "data/tree.text"),
-        (["retrieve", "ice", "--foon", "f.txt"], "f.txt.tree"),
+        (["retrieve", "ice [crushed, frozen] in [drinking glass]", "--foon", "f.txt"], "f.txt.tree"),
         (["compile", "f.txt", "kb.foon"], "kb.foon2"),
         (["convert", "kb.foon"], "kb.txt"),
         (["batch", "--queries", "q.jsonl", "--jobs", "1"], "rows.jsonl"),

@@ -202,12 +202,13 @@ def test_a_kitchen_in_any_form_is_the_same(tmp_path: Path, form: str) -> None:
         f'{{"tags": ["easy"], "kitchen": [{EGG}, ',
         f"{EGG}\n{{",
         '["egg [raw]", "oni',
+        '{"none": ["None"], "kitchen": ["egg [raw]", "oni',
     ],
 )
 def test_of_a_kitchen_that_is_cut_off_the_whole_objects_are_read(tmp_path: Path, text: str) -> None:
     kitchen, findings = kitchen_of(written(tmp_path, text))
     assert list(map(str, kitchen.objects)) == ["egg [raw]"]
-    assert [finding.code for finding in findings] == ["broken-json"]
+    assert {finding.code for finding in findings} - {"word-for-none"} == {"broken-json"}
 
 
 _COOKED = fa.read(
