@@ -64,10 +64,14 @@ class LimitReachedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Until when (`time.monotonic` seconds) and with how much memory (bytes) one may go on."""
+    """Until when (`time.monotonic` seconds) and with how much memory (bytes) one may go on.
+
+    `grace` is how many seconds more there are for a first answer.
+    """
 
     deadline: float = math.inf
     memory: float = math.inf
+    grace: float = _MOMENT
 
 
 _NONE = Limits()
@@ -83,7 +87,8 @@ def limited(seconds: float | None = None, megabytes: float | None = None) -> Ite
     outer = _current.get()
     deadline = math.inf if seconds is None else time.monotonic() + seconds
     memory = math.inf if megabytes is None else megabytes * MEGABYTE
-    token = _current.set(Limits(min(outer.deadline, deadline), min(outer.memory, memory)))
+    deadline, memory = min(outer.deadline, deadline), min(outer.memory, memory)
+    token = _current.set(replace(outer, deadline=deadline, memory=memory))
     try:
         yield
     finally:
@@ -104,6 +109,16 @@ def moment() -> Iterator[None]:
         _current.reset(token)
 
 
+@contextmanager
+def strictly() -> Iterator[None]:
+    """Allow no moment more inside: there is something to show."""
+    token = _current.set(replace(_current.get(), grace=0.0))
+    try:
+        yield
+    finally:
+        _current.reset(token)
+
+
 def seconds_left() -> float:
     """Return how many seconds there are until the deadline, at least 0; infinity without one."""
     return max(0.0, _current.get().deadline - time.monotonic())
@@ -116,7 +131,8 @@ def memory_allowed() -> float:
 
 def limited_now() -> bool:
     """Whether there is any limit at all, so that it is worth having something early."""
-    return _current.get() != _NONE
+    now = _current.get()
+    return now.deadline < math.inf or now.memory < math.inf
 
 
 def careful_memory() -> float:
@@ -140,7 +156,8 @@ def check() -> None:
     What is done in a moment is done even where no time is left, so that there is something to show.
     """
     limit = reached()
-    if limit is Limit.TIME and time.monotonic() < _current.get().deadline + _MOMENT:
+    now = _current.get()
+    if limit is Limit.TIME and time.monotonic() < now.deadline + now.grace:
         return
     if limit is not None:
         raise LimitReachedError(limit)

@@ -13,7 +13,7 @@ from typing import Any, Generic, TypeVar, cast, overload
 import numpy as np
 import numpy.typing as npt
 
-from foon_asp.model.arrays import K, Mask, Numbers, Rows, distinct, numbers, rows
+from foon_asp.model.arrays import K, Mask, Numbers, Places, Rows, distinct, numbers, places, rows
 from foon_asp.model.node import (
     Annotation,
     FunctionalUnit,
@@ -102,9 +102,13 @@ class StateTable(_Table[int, State]):
         """The number of each word."""
         return {word: code for code, word in enumerate(self.words)}
 
+    @property
+    def _keys(self) -> Keys:
+        return _state_keys(self.name, self.relatum, self.contents, self.braces)
+
     @cached_property
     def _index(self) -> _KeyIndex[int]:
-        return _KeyIndex(_state_keys(self.name, self.relatum, self.contents, self.braces))
+        return _KeyIndex(self._keys)
 
     def find(self, states: Sequence[State]) -> list[int]:
         """Return the numbers of some states, -1 for one that is not here."""
@@ -114,17 +118,21 @@ class StateTable(_Table[int, State]):
 
     def repeats(self) -> bool:
         """Tell whether a state is there twice."""
-        return self._index.repeats(lambda number: self[number])
+        return _repeats(self._keys, lambda number: self[number])
 
-    def in_order(self, table: Rows[K, int]) -> Rows[K, int]:
-        """Return rows of states in their canonical order, that of `State.sort_key`."""
+    @property
+    def ranks(self) -> Places:
+        """Numbers in the order of `State.sort_key`, alike for states that differ in contents alone."""
         place = np.empty(len(self.words) + 1, np.int64)
         place[sorted(range(len(self.words)), key=self.words.__getitem__)] = np.arange(len(self.words))
         place[-1] = -1
         kind = np.where(self.braces, 2, self.relatum >= 0)
-        _, rank = np.unique(
-            kind << 60 | place[self.name] << 30 | place[self.relatum] + 1, return_inverse=True
-        )
+        ranks: Places = kind << 60 | place[self.name] << 30 | place[self.relatum] + 1
+        return ranks
+
+    def in_order(self, table: Rows[K, int]) -> Rows[K, int]:
+        """Return rows of states in their canonical order, that of `State.sort_key`."""
+        _, rank = np.unique(self.ranks, return_inverse=True)
         keys = table.owners.astype(np.int64) << 32 | rank[table.values]
         order = np.argsort(keys)
         values = table.values[order]
@@ -182,7 +190,11 @@ class ObjectTable(_Table[ObjectId, ObjectNode]):
 
     @cached_property
     def _index(self) -> _KeyIndex[ObjectId]:
-        return _KeyIndex(_node_keys(self.label, self.states))
+        return _KeyIndex(self._keys)
+
+    @property
+    def _keys(self) -> Keys:
+        return _node_keys(self.label, self.states)
 
     def number_of(self, node: ObjectNode) -> ObjectId | None:
         """Return the number of a node, None if it is not here; what was asked is known for a while."""
@@ -206,7 +218,7 @@ class ObjectTable(_Table[ObjectId, ObjectNode]):
 
     def repeats(self) -> bool:
         """Tell whether an object node is there twice."""
-        return self._index.repeats(lambda number: self[number])
+        return _repeats(self._keys, lambda number: self[number])
 
     def labelled(self, label: str) -> list[ObjectId]:
         """Return the numbers of all nodes with a label."""
@@ -232,16 +244,15 @@ class _KeyIndex(Generic[K]):
             for place, candidates in enumerate(rows_of_keys)
         ]
 
-    def repeats(self, value: Callable[[K], object]) -> bool:
-        """Tell whether two rows that share a key have the same value."""
-        begins = np.flatnonzero(np.concatenate(([True], self._keys[1:] != self._keys[:-1])))
-        ends = np.append(begins[1:], len(self._keys))
-        shared = ends - begins > 1
-        for begin, end in zip(begins[shared].tolist(), ends[shared].tolist(), strict=True):
-            values = {value(number) for number in self._order[begin:end].tolist()}
-            if len(values) < end - begin:
-                return True
-        return False
+
+def _repeats(keys: Keys, value: Callable[[Any], object]) -> bool:
+    """Tell whether two rows that share a key have the same value."""
+    # To sort numbers takes a tenth of the time that it takes to say in which order they are.
+    ordered = np.sort(keys)
+    shared = distinct(ordered[1:][ordered[1:] == ordered[:-1]])
+    _, doubtful = places(keys, shared)
+    numbers = np.flatnonzero(doubtful)
+    return len({(int(keys[number]), value(number)) for number in numbers.tolist()}) < len(numbers)
 
 
 Keys = npt.NDArray[np.uint64]
@@ -350,13 +361,13 @@ class UnitTable(_Table[UnitId, FunctionalUnit]):
     def repeats(self) -> bool:
         """Tell whether a unit is there twice, whatever was noted of it."""
         keys: Keys = _mixed(self.motion) * _ODD + _sums(self.inputs) * _OTHER + _sums(self.outputs)
-        index: _KeyIndex[UnitId] = _KeyIndex(keys)
-        return index.repeats(
+        return _repeats(
+            keys,
             lambda number: (
                 self.motion[number],
                 frozenset(self.inputs[number]),
                 frozenset(self.outputs[number]),
-            )
+            ),
         )
 
     def _annotation(self, number: UnitId) -> Annotation:

@@ -31,6 +31,13 @@ def test_a_limit_inside_another_one_is_only_tighter() -> None:
     assert not limits.limited_now()
 
 
+def test_who_has_something_to_show_gets_no_moment_more() -> None:
+    with limited(100), limits.strictly():
+        limits.check()
+    with limited(0), limits.strictly(), pytest.raises(LimitReachedError):
+        limits.check()
+
+
 def test_what_is_over_raises_and_a_moment_is_always_there() -> None:
     with limited(0):
         assert limits.reached() is Limit.TIME

@@ -8,8 +8,11 @@ proof is a bound for the whole.
 from __future__ import annotations
 
 import math
+from contextlib import nullcontext
 
+from foon_asp import limits
 from foon_asp.limits import LimitReachedError
+from foon_asp.model.relaxation import Part
 from foon_asp.query.ladder import Ladder, part_of
 from foon_asp.query.objective import Objective
 from foon_asp.query.problem import Problem
@@ -47,16 +50,22 @@ class Climb:
         try:
             part = part_of(self._problem)
             self._offer(first_tree(self._problem, part, self._every, again=0))
-            ladder = Ladder.of(self._problem, part, self._criterion)
-            if ladder is not None:
-                self._least = ladder.least
-                self._plan_again(ladder.upto(self._top(ladder)))
-                return self._climb(ladder)
-            self._plan_again(self._problem)
-            found = proven(self._problem, self._objective, self._best)
-            return self._ended(found) if found.status == Status.LIMIT else found
+            # Who has a tree needs no moment more.
+            with nullcontext() if self._best is None else limits.strictly():
+                return self._improved(part)
         except LimitReachedError as error:
             return self._ended(Found(Status.LIMIT, limit=error.limit))
+
+    def _improved(self, part: Part) -> Found:
+        """Look for better trees, and for the proof."""
+        ladder = Ladder.of(self._problem, part, self._criterion)
+        if ladder is not None:
+            self._least = ladder.least
+            self._plan_again(ladder.upto(self._top(ladder)))
+            return self._climb(ladder)
+        self._plan_again(self._problem)
+        found = proven(self._problem, self._objective, self._best)
+        return self._ended(found) if found.status == Status.LIMIT else found
 
     def _plan_again(self, problem: Problem) -> None:
         """Look for a better plan, among the units of trees that may be better."""
