@@ -122,12 +122,13 @@ class Control:
 
     def best(self, progress: Progress | None = None) -> Model:
         """Return the best model, or the best until a limit."""
-        found: list[Model] = []
+        found: list[_Seen] = []
 
         def on_model(model: clingo.Model) -> None:
-            found[:] = [_answer(model, proven=False)]
+            # Most models are not the last one: what they say is read when that is known.
+            found[:] = [_Seen.of(model)]
             if progress is not None:
-                progress(found[0])
+                progress(found[0].model())
 
         proven, limit = self._run(on_model)
         if not found:
@@ -135,7 +136,7 @@ class Control:
         # Where there is nothing to pay the first model is a best one, and clingo looks no further.
         proven = proven or not found[0].costs
         bounds = found[0].costs if proven else self._lower_bounds()
-        return replace(found[0], proven=proven, bounds=bounds, limit=None if proven else limit)
+        return replace(found[0].model(), proven=proven, bounds=bounds, limit=None if proven else limit)
 
     def all_best(self, distinct: str, most: int | None = None) -> Models:
         """Return all best models, each set of atoms of the predicate `distinct` once, in their order.
@@ -231,14 +232,35 @@ class Control:
         return tuple(int(bound) for bound in summary.get("lower", ()))
 
 
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """What a model of clingo shows and pays; there is no such model once the search goes on."""
+
+    shown: Sequence[clingo.Symbol]
+    costs: tuple[int, ...]
+    priorities: tuple[int, ...]
+
+    @classmethod
+    def of(cls, model: clingo.Model) -> _Seen:
+        return cls(model.symbols(shown=True), tuple(model.cost), tuple(model.priority))
+
+    def model(self) -> Model:
+        """Return it as plain values, of which nothing is proven."""
+        return Model(_atoms(self.shown), False, (), self.costs, self.priorities)
+
+
 def _answer(model: clingo.Model, *, proven: bool) -> Model:
-    costs = tuple(model.cost)
-    return Model(_atoms(model), proven, costs if proven else (), costs, tuple(model.priority))
+    seen = _Seen.of(model)
+    return replace(seen.model(), proven=proven, bounds=seen.costs if proven else ())
 
 
-def _atoms(model: clingo.Model) -> tuple[Atom, ...]:
-    symbols = sorted(model.symbols(shown=True))
-    return tuple((symbol.name, tuple(map(_value, symbol.arguments))) for symbol in symbols)
+def _atoms(symbols: Sequence[clingo.Symbol]) -> tuple[Atom, ...]:
+    """Return atoms in clingo's order: by the number of arguments, by name, by arguments."""
+    atoms = [(symbol.name, tuple(map(_value, symbol.arguments))) for symbol in symbols]
+    if all(isinstance(value, int) for _, values in atoms for value in values):
+        # Numbers are in order as they are; to ask clingo of each pair takes as long as a small search.
+        return tuple(sorted(atoms, key=lambda atom: (len(atom[1]), atom)))
+    return tuple((symbol.name, tuple(map(_value, symbol.arguments))) for symbol in sorted(symbols))
 
 
 def _value(symbol: clingo.Symbol) -> Value:

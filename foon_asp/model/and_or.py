@@ -34,19 +34,26 @@ class AndOrGraph:
     ) -> None:
         self._goals = [goal for goal in goals if goal not in stock]
         self._demanded = demanded
-        self._rounds = rounds
         order = sorted(units, key=lambda unit: rounds.get(unit, 0))
         self.needs = {unit: [o for o in reading.needed[unit] if o not in stock] for unit in order}
         self.makes = {unit: {o for o in reading.made[unit] if o not in stock} for unit in order}
+        self.makers: dict[ObjectId, set[UnitId]] = {}
+        for unit, made in self.makes.items():
+            for object_id in made:
+                self.makers.setdefault(object_id, set()).add(unit)
         self._settle()
 
     @classmethod
     def known(cls, ways: Ways, goals: Iterable[ObjectId], rounds: Mapping[UnitId, int]) -> AndOrGraph:
         """Return what all units are at first that lead to some goals, which the kitchen can make."""
         graph = cls.__new__(cls)
-        graph._goals, graph._demanded, graph._rounds = list(goals), (), rounds
+        graph._goals, graph._demanded = list(goals), ()
         known = ways.to(graph._goals)
-        graph._lead(known.needs, known.makes, known.makers)
+        found, wanted = graph._leading(known.needs, known.makers)
+        order = sorted(found, key=rounds.__getitem__)
+        graph.needs = {unit: known.needs[unit] for unit in order}
+        graph.makes = {unit: known.makes[unit] & wanted for unit in order}
+        graph.makers = {object_id: known.makers[object_id] & found for object_id in wanted}
         graph._take(known.landmarks)
         return graph
 
@@ -96,8 +103,11 @@ class AndOrGraph:
             if unit in self._demanded or not makes:
                 continue
             before = units[unit]
-            rarest = min(makes, key=lambda object_id: (len(self.makers[object_id]), object_id))
-            for other in self.makers[rarest]:
+            rarest = next(iter(makes))
+            if len(makes) > 1:
+                rarest = min(makes, key=lambda object_id: (len(self.makers[object_id]), object_id))
+            able = self.makers[rarest]
+            for other in able if len(able) > 1 else ():
                 if (
                     other != unit
                     and makes <= self.makes[other]
@@ -115,20 +125,16 @@ class AndOrGraph:
     def _settle(self) -> None:
         """Leave out what does not matter until nothing more goes."""
         while True:
-            able: dict[ObjectId, list[UnitId]] = {}
-            for unit, made in self.makes.items():
-                for object_id in made:
-                    able.setdefault(object_id, []).append(unit)
-            self._lead(self.needs, self.makes, able)
+            self._lead()
             landmarks = Landmarks()
             landmarks.number(self.makers, self.needs)
             landmarks.find(self.needs, self.makes)
-            for unit in self.needs.keys() - landmarks.units.keys():
-                self.makes[unit].clear()
+            never = self.needs.keys() - landmarks.units.keys()
             late = landmarks.late(self.makes)
+            late += [(unit, object_id) for unit in never for object_id in self.makes[unit]]
             for unit, object_id in late:
                 self._drop(unit, object_id)
-            if not late and len(landmarks.units) == len(self.needs):
+            if not late and not never:
                 self._take(landmarks)
                 return
 
@@ -137,29 +143,28 @@ class AndOrGraph:
         self.makes[unit].discard(object_id)
         self.makers[object_id].discard(unit)
 
-    def _lead(
-        self,
-        needs: Mapping[UnitId, list[ObjectId]],
-        makes: Mapping[UnitId, set[ObjectId]],
-        able: Mapping[ObjectId, Iterable[UnitId]],
-    ) -> None:
-        """Take only the units that lead to a goal, and of what they make what somebody needs."""
+    def _lead(self) -> None:
+        """Leave out the units that do not lead to a goal, and of what they make what nobody needs."""
+        found, wanted = self._leading(self.needs, self.makers)
+        self.needs = {unit: needs for unit, needs in self.needs.items() if unit in found}
+        self.makes = {unit: self.makes[unit] & wanted for unit in self.needs}
+        self.makers = {object_id: self.makers.get(object_id, set()) & found for object_id in wanted}
+
+    def _leading(
+        self, needs: Mapping[UnitId, list[ObjectId]], makers: Mapping[ObjectId, set[UnitId]]
+    ) -> tuple[set[UnitId], set[ObjectId]]:
+        """Return the units that lead to a goal, or are demanded, and all that they or the goals need."""
         found = set(self._demanded)
         open_ = [*self._goals, *(need for unit in found for need in needs[unit])]
         wanted = set(open_)
         while open_:
-            for unit in able.get(open_.pop(), ()):
+            for unit in makers.get(open_.pop(), ()):
                 if unit not in found:
                     found.add(unit)
                     fresh = [need for need in needs[unit] if need not in wanted]
                     wanted.update(fresh)
                     open_ += fresh
-        order = sorted(found, key=lambda unit: self._rounds.get(unit, 0))
-        self.needs = {unit: needs[unit] for unit in order}
-        self.makes = {unit: makes[unit] & wanted for unit in order}
-        self.makers: dict[ObjectId, set[UnitId]] = {
-            object_id: found.intersection(able.get(object_id, ())) for object_id in wanted
-        }
+        return found, wanted
 
     def _take(self, landmarks: Landmarks) -> None:
         """Take the landmarks of what is left, and note which units are those of all that must be there."""

@@ -46,8 +46,8 @@ def _without_one(problem: Problem, tree: TaskTree, objective: Objective) -> Task
 def _doubtful(problem: Problem, tree: TaskTree) -> Iterable[UnitId]:
     """Yield the units, the last one first, of which everything that is wanted has another maker, too."""
     world = tree.world
-    makes = world.units.makes
-    wanted = {need for unit in tree.units for need in world.units.needs[unit]}.union(tree.goals)
+    makes = world.units.made
+    wanted = {need for unit in tree.units for need in world.units.needed[unit]}.union(tree.goals)
     times: dict[ObjectId, int] = {}
     for unit in tree.units:
         for object_id in makes[unit]:
@@ -69,7 +69,7 @@ def leading(problem: Problem, units: Iterable[UnitId]) -> set[UnitId] | None:
     maker = first_makers(reading, executable)
     demanded = set(problem.constraints.use_units)
     kept = set(demanded)
-    wanted = [*problem.goals, *(need for unit in demanded for need in reading.needs[unit])]
+    wanted = [*problem.goals, *(need for unit in demanded for need in reading.needed[unit])]
     while wanted:
         object_id = wanted.pop()
         if object_id in stock:
@@ -79,14 +79,14 @@ def leading(problem: Problem, units: Iterable[UnitId]) -> set[UnitId] | None:
             return None
         if unit not in kept:
             kept.add(unit)
-            wanted += reading.needs[unit]
+            wanted += reading.needed[unit]
     return kept if kept <= executable.keys() else None
 
 
 def _leading_in_circles(problem: Problem, units: Collection[UnitId]) -> set[UnitId]:
     """Return those of some units that lead to the goals, or to what is demanded, be it in circles."""
     world, demanded = problem.world, problem.constraints.use_units
-    wanted = [*problem.goals, *(need for unit in demanded for need in world.units.needs[unit])]
+    wanted = [*problem.goals, *(need for unit in demanded for need in world.units.needed[unit])]
     return {*demanded, *backward(world.units, wanted, world.stock, units)}
 
 

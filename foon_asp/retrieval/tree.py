@@ -125,7 +125,7 @@ class TaskTree:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """The steps, in the order of execution."""
-        world, makes = self.world, self.world.units.makes
+        world, makes = self.world, self.world.units.made
         rows = zip(self.functional_units, self.numbers, self.rounds, origins(self), strict=True)
         return tuple(
             Step(
@@ -225,7 +225,7 @@ def makers(made: Units, units: Iterable[UnitId], at_hand: Container[ObjectId] = 
     """Return for each object that units make and that is not at hand the place (1, 2, …) of its maker."""
     found: dict[ObjectId, int] = {}
     for place, unit in enumerate(units, 1):
-        for number in made.makes[unit]:
+        for number in made.made[unit]:
             if number not in at_hand:
                 found.setdefault(number, place)
     return found
@@ -264,11 +264,13 @@ def replay(world: World, goals: Iterable[ObjectId], units: Iterable[UnitId]) -> 
     at_hand: set[ObjectId] = set()
     for place, unit in enumerate(units):
         lacking = [
-            object_id for object_id in reading.needs[unit] if not (object_id in at_hand or object_id in stock)
+            object_id
+            for object_id in reading.needed[unit]
+            if not (object_id in at_hand or object_id in stock)
         ]
         if lacking:
             return Replay(False, place, tuple(world.node(object_id) for object_id in lacking))
-        at_hand.update(reading.makes[unit])
+        at_hand.update(reading.made[unit])
     lacking = [goal for goal in goals if not (goal in at_hand or goal in stock)]
     return Replay(not lacking, None, tuple(world.node(goal) for goal in lacking))
 
@@ -286,7 +288,7 @@ def _order(world: World, goals: Iterable[ObjectId], executable: Mapping[UnitId, 
         unit = stack[-1]
         before = [
             maker[object_id]
-            for object_id in reading.needs[unit]
+            for object_id in reading.needed[unit]
             if object_id not in world.stock and maker[object_id] not in placed
         ]
         if before and unit not in placed:
