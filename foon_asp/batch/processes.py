@@ -22,7 +22,10 @@ from foon_asp.io.folder import Sources
 from foon_asp.processes import leave_with_parent
 
 _CYCLES = 50_000
-"""How many objects a process makes before Python looks for cycles among them."""
+"""How many objects a process makes before Python looks for cycles among them.
+
+A query makes many objects at once. Python would look a hundred times meanwhile.
+"""
 
 
 def cores() -> int:
@@ -34,8 +37,13 @@ def cores() -> int:
 def answer_here(sources: Sources, settings: Settings, chunks: Iterable[Chunk]) -> Generator[Rows, None, None]:
     """Answer chunks in this process, one after the other."""
     answerer = Answerer(sources, settings)
-    for chunk in chunks:
-        yield from answerer.stream(chunk)
+    before = gc.get_threshold()
+    gc.set_threshold(_CYCLES)
+    try:
+        for chunk in chunks:
+            yield from answerer.stream(chunk)
+    finally:
+        gc.set_threshold(*before)
 
 
 def answer_in_processes(
@@ -187,7 +195,6 @@ def _work(connection: Connection, sources: Sources, settings: Settings) -> None:
             connection.send(str(error))
             return
         connection.send([])
-        # A query makes many objects at once. Python would look for cycles a hundred times meanwhile.
         gc.set_threshold(_CYCLES)
         while True:
             for rows in answerer.stream(connection.recv()):

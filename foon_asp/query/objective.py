@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from fractions import Fraction
 
 from foon_asp.errors import QueryError
@@ -125,10 +125,17 @@ def _written(weight: Fraction) -> str:
 class Objective:
     """What a tree should be best by: criteria, the most important first; the later ones break ties.
 
-    An empty objective leaves the choice to the method.
+    An empty objective leaves the choice to the method. `names` are all of `CRITERIA` that occur, alone or in
+    a sum.
     """
 
     criteria: tuple[Criterion, ...] = ()
+    names: frozenset[str] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        # Whoever answers a question asks for the names ten times.
+        names = frozenset(name for criterion in self.criteria for name in criterion.names)
+        object.__setattr__(self, "names", names)
 
     @classmethod
     def parse(cls, by: str | Iterable[str] | Objective) -> Objective:
@@ -162,11 +169,6 @@ class Objective:
     def texts(self) -> tuple[str, ...]:
         """The criteria as they are written, each by itself."""
         return tuple(map(str, self.criteria))
-
-    @property
-    def names(self) -> frozenset[str]:
-        """All of `CRITERIA` that occur, alone or in a sum."""
-        return frozenset(name for criterion in self for name in criterion.names)
 
     @property
     def complete(self) -> Objective:

@@ -41,6 +41,8 @@ def permitted(problem: Problem) -> Problem | None:
     A unit that breaks a constraint by itself is in no tree. Once there is none the constraint is kept anyway,
     and nobody need look at it any more. None if nothing makes some goal then.
     """
+    if problem.constraints == FREE:
+        return problem
     left = replace(FREE, **{name: getattr(problem.constraints, name) for name in _ABOUT_TREES})
     if problem.constraints == left:
         return problem

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from msgspec import UNSET, Meta, UnsetType, structs, to_builtins
@@ -181,7 +180,7 @@ Own = Annotated[
 
 def costs_json(costs: Costs) -> CostsJson:
     """Return what a tree costs."""
-    return CostsJson(**asdict(costs))
+    return CostsJson(**{name: getattr(costs, name) for name in CRITERIA})
 
 
 def some_costs_json(tree: TaskTree | None) -> CostsJson | None:
