@@ -16,14 +16,18 @@ from typing import Any
 import pyarrow.parquet as pq
 import pytest
 from jsonschema import Draft202012Validator
+from msgspec import to_builtins
 
 from foon_asp.batch.answerer import Answerer, Settings
 from foon_asp.batch.query_file import Chunk, QueryFile
-from foon_asp.batch.rows import Rows, error_row
+from foon_asp.batch.rows import Rows, answer_row, error_row
 from foon_asp.batch.run import RunOptions, chunk_size, run_batch
 from foon_asp.batch.tasks import DIED
 from foon_asp.errors import InputError
 from foon_asp.io.folder import Dataset, Sources
+from foon_asp.query.query import Query
+from foon_asp.retrieval.retrieve import retrieve
+from foon_asp.retrieval.wire import row_json
 from support.batch_runs import (
     Drawn,
     busy,
@@ -42,6 +46,20 @@ from support.cli import run, run_json
 from support.paths import ROOT, SCHEMAS
 
 PAGE = (ROOT / "docs" / "batch.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", [None, 1.5, '"units": []', "half \ud83c"])
+def test_a_row_is_written_as_if_all_of_it_were_written_anew(name: str | float | None) -> None:
+    world = Sources.of().load().world()
+    for query in (Query("ice"), Query("whipped cream", human_steps=1), Query("ice", "whipped cream")):
+        answer = retrieve(world, query)
+        for timings in (False, True):
+            value = to_builtins(row_json(3, name, answer, timings=timings))
+            row = answer_row(3, name, answer, timings=timings)
+            assert json.loads(row.json) == value
+            assert row.json.decode() == json.dumps(value, ensure_ascii="\ud83c" in str(name))
+            assert answer_row(3, name, answer, timings=timings) == row
+    assert value["units"]
 
 
 @pytest.fixture
