@@ -179,6 +179,10 @@ class Kept(dict[K, T]):
         super().__init__()
         self._make = make
 
+    def __reduce__(self) -> tuple[type[Kept[K, T]], tuple[Callable[[K], T]]]:
+        # Another process makes what it needs.
+        return Kept, (self._make,)
+
     def __missing__(self, number: K) -> T:
         if len(self) >= _KEPT:
             self.clear()
