@@ -204,8 +204,8 @@ def actions(parser: Parser, styles: Sequence[str], where: str = "") -> None:
     parser.add_argument(
         "--style",
         choices=styles,
-        help="how actions are written: one for each unit, with a fluent for each object (objects), or typed and "
-        f"readable (lifted){where} (default: objects)",
+        help="how actions are written: one for each unit, with a fluent for each object (objects), or typed"
+        f" and readable (lifted){where} (default: objects)",
     )
     parser.add_argument(
         "--durative",
