@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -48,9 +47,7 @@ FREE: Mapping[str, Any] = {
 
 
 def lacking(what: str, advice: str) -> None:
-    """Skip a test for what is not on this machine; CI has everything, so there it fails."""
-    if os.environ.get("CI"):
-        pytest.fail(f"CI must have {what}: {advice}")
+    """Skip a test for what is not on this machine; `.ci/run` installs it wherever it can."""
     pytest.skip(f"no {what}: {advice}")
 
 
