@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from foon_asp.query.query import Query
     from foon_asp.query.status import Status
     from foon_asp.query.substitution import Replacement
+    from foon_asp.retrieval.adapt import Adaptation
     from foon_asp.retrieval.alternatives import Alternatives
     from foon_asp.retrieval.answer import Answer
     from foon_asp.retrieval.check import Checks
@@ -48,6 +49,7 @@ _HOMES = {
     "query.query": ("Query",),
     "query.status": ("Status",),
     "query.substitution": ("Replacement",),
+    "retrieval.adapt": ("Adaptation",),
     "retrieval.alternatives": ("Alternatives",),
     "retrieval.answer": ("Answer",),
     "retrieval.check": ("Checks",),
@@ -63,6 +65,7 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "Adaptation",
     "Alternatives",
     "Answer",
     "Checks",

@@ -38,6 +38,7 @@ from foon_asp.query.kitchen_change import KitchenChange
 from foon_asp.query.objective import Objective
 from foon_asp.query.query import Query
 from foon_asp.render.explorer import explorer_page
+from foon_asp.retrieval.adapt import Adaptation, adapt_dish
 from foon_asp.retrieval.alternatives import (
     Alternatives,
     all_optimal_trees,
@@ -223,6 +224,13 @@ class World:
 
         return plan(self._world, PlanQuery(Query.of(query), engine, semantics, max_steps))
 
+    def adapt(self, query: Asked, wanted: Iterable[str] = ()) -> Adaptation:
+        """Return the nearest dish of a kind, with what is wanted and without what the query forbids.
+
+        The query names a dish, what it is a kind of (`salad`), or a category of the files (`"15"`).
+        """
+        return adapt_dish(self._world, query, wanted)
+
     def explain(self, query: Asked, *, most: int = 1) -> Explanation:
         """Say why there is no task tree and what is missing, `most` smallest sets; or what steps are for."""
         return explain(self._world, query, most=_how_many(most, "most"))
@@ -334,7 +342,10 @@ def _answer(query: Query) -> tuple[Answer, _Ids | None]:
     assert _opened is not None
     answer = retrieve(_opened, query)
     tree = answer.tree
-    ids = None if tree is None else (tree.goals, tree.units, tree.rounds, tree.replay, tree.human)
+    if tree is None or tree.record is not None:
+        # One with replacements has a world of its own.
+        return answer, None
+    ids = (tree.goals, tree.units, tree.rounds, tree.replay, tree.human)
     return replace(answer, tree=None), ids
 
 

@@ -268,8 +268,8 @@ def constraints(parser: Parser) -> None:
         group.add_argument(flag, action="append", default=[], metavar="FILE", help=text)
 
 
-def substitute(parser: Parser) -> None:
-    """Add what may be replaced."""
+def substitute(parser: Parser, more: str = "") -> None:
+    """Add what may be replaced, and `more` to say of it."""
     parser.add_argument(
         "--substitute",
         action="append",
@@ -279,7 +279,7 @@ def substitute(parser: Parser) -> None:
         metavar="FILE",
         help="replace what is missing or forbidden by what is alike: as a table says, lines of"
         " label<tab>replaced by<tab>likeness<tab>note; by its uses in the FOON (foon; so without a value); by"
-        " vectors of ingredients (vectors, with foon-asp[similar])",
+        f" vectors of ingredients (vectors, with foon-asp[similar]){more}",
     )
 
 

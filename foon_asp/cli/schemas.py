@@ -23,6 +23,7 @@ from foon_asp.io.object_wire import ObjectJson
 from foon_asp.io.wire import FEW, dumps
 from foon_asp.planning.wire import EngineJson, NamedPlanJson, PlanAnswerJson, PlanJson
 from foon_asp.query.wire import NodeJson, QueryJson
+from foon_asp.retrieval.adapt_wire import AdaptationJson
 from foon_asp.retrieval.check_wire import CheckJson
 from foon_asp.retrieval.consolidate_wire import ConsolidationJson
 from foon_asp.retrieval.explain_wire import ExplanationJson
@@ -69,6 +70,7 @@ class Declared:
 
 
 DECLARED = {
+    "adapt": Declared("foon-asp adapt --format json", (AdaptationJson,)),
     "audit": Declared("foon-asp audit --format json", (AuditJson,)),
     "batch-query": Declared("foon-asp batch: a line of the query file", (QueryJson,), more=(NodeJson,)),
     "batch-result": Declared(

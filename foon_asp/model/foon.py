@@ -103,20 +103,28 @@ class Foon:
         """Every label that an object node names: its own, those of relata and of contents."""
         return self.labels | self.objects.kinds.named
 
-    def marked_goals(self) -> list[ObjectNode]:
-        """Return the objects that the annotators marked as intended goals, in file order."""
+    def goal_marks(self) -> dict[ObjectNode, set[str]]:
+        """Return what annotators marked as intended goals, in file order, and how: `!` or a dish category."""
         notes = self.units.notes
-        is_goal = np.array([bool(mark.goal) for mark in notes.marks], np.bool_)
-        found: list[tuple[UnitId, int, ObjectId]] = []
+        goals = [mark.goal for mark in notes.marks]
+        is_goal = np.array([bool(goal) for goal in goals], np.bool_)
+        found: list[tuple[UnitId, int, ObjectId, str]] = []
         for side, (ports, codes) in enumerate(
             ((self.units.inputs, notes.in_marks), (self.units.outputs, notes.out_marks))
         ):
             chosen = np.flatnonzero(is_goal[codes])
             owners, values = ports.owners[chosen].tolist(), ports.values[chosen].tolist()
-            found += [(unit, side, port) for unit, port in zip(owners, values, strict=True)]
+            marks = map(goals.__getitem__, codes[chosen].tolist())
+            found += [(unit, side, port, mark) for unit, port, mark in zip(owners, values, marks, strict=True)]
+        marked: dict[ObjectId, set[str]] = {}
         # Sorting keeps the order of the ports of one side.
-        ports_in_order = [port for _, _, port in sorted(found, key=lambda each: each[:2])]
-        return [self.objects[port] for port in dict.fromkeys(ports_in_order)]
+        for _, _, port, mark in sorted(found, key=lambda each: each[:2]):
+            marked.setdefault(port, set()).add(mark)
+        return {self.objects[port]: names for port, names in marked.items()}
+
+    def marked_goals(self) -> list[ObjectNode]:
+        """Return the same without the marks."""
+        return list(self.goal_marks())
 
 
 _NO_MARK = Mark()

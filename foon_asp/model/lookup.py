@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 
 from foon_asp.errors import QueryError
@@ -30,6 +30,10 @@ class Pattern:
             None if parts.contents is None else tuple(sorted(chain.from_iterable(parts.contents))),
             frozenset(State(*other) for other in parts.others) or None,
         )
+
+    def of_label(self, label: str) -> Pattern:
+        """Return the same of another label."""
+        return replace(self, label=label)
 
     def matches(self, node: ObjectNode, *, exactly: bool) -> bool:
         """Does a node fit all parts that were said? `exactly` allows nothing more within a part."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
 
 from foon_asp.model.node import ObjectNode, State
@@ -38,6 +39,56 @@ def _states(states: Iterable[State], labels: Replaced) -> Iterator[State]:
             kept = (labels.get(content, content) for content in contents)
             contents = tuple(content for content in kept if content is not None)
         yield State(state.name, relatum, contents)
+
+
+@dataclass(frozen=True, slots=True)
+class Changes:
+    """What becomes of object nodes: labels replaced, and others added beside some that stay.
+
+    What is added beside a label goes the same way: it is among the contents wherever that is, and has nodes
+    of its own wherever that has. `at_hand` tells what nobody has made yet: what is added is no content of
+    that, but lies in a vessel of its own.
+    """
+
+    labels: Replaced
+    beside: Mapping[str, Sequence[str]]
+    at_hand: Callable[[ObjectNode], bool]
+
+    def of(self, node: ObjectNode, *, view: bool = False) -> list[ObjectNode]:
+        """Return what a node becomes; nothing if it is left out.
+
+        A `view` shows from the vessel's side what another node shows; so does that of what is added.
+        """
+        found = replaced(node, self.labels)
+        if found is None:
+            return []
+        if self.beside.keys().isdisjoint(found.named_labels):
+            return [found]
+        apart = view or self.at_hand(found)
+        own = [found.label, *self.beside.get(found.label, ())]
+        vessels = [found.states, *self._own_vessels(found)] if apart else [self._joined(found)]
+        return [ObjectNode.of(label, states) for label in own for states in vessels]
+
+    def _joined(self, node: ObjectNode) -> tuple[State, ...]:
+        """Return the states of a node with what is added among its contents."""
+        return tuple(
+            state
+            if state.contents is None
+            else State(state.name, state.relatum, (*state.contents, *self._added(state.contents)))
+            for state in node.states
+        )
+
+    def _own_vessels(self, node: ObjectNode) -> Iterator[tuple[State, ...]]:
+        """Yield the states of vessels of what is added, each for itself."""
+        for state in node.states:
+            rest = tuple(other for other in node.states if other is not state)
+            for label in self._added(state.contents or ()):
+                yield (*rest, State(state.name, state.relatum, (label,)))
+
+    def _added(self, contents: Iterable[str]) -> list[str]:
+        listed = list(contents)
+        found = dict.fromkeys(label for each in listed for label in self.beside.get(each, ()))
+        return [label for label in found if label not in listed]
 
 
 Shape = tuple[tuple[str, bool, int], ...]

@@ -270,6 +270,10 @@ class World:
         """Whether a node is bare, or a utensil that contains nothing."""
         return node.bare or (node.label in self.kitchen.utensils and not node.contents)
 
+    def touched(self, *units: FunctionalUnit) -> Set[str]:
+        """Return the labels that some units have to do with, as `touching.lp` has it."""
+        return {label for node in self._listed(units) for label in node.named_labels}
+
     def handled(self, *units: FunctionalUnit) -> Set[str]:
         """Return the utensils that some units handle: what they list, and what that is in or on."""
         return frozenset().union(*(vessels.handled for vessels in self._vessels(units)))

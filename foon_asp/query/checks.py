@@ -90,7 +90,7 @@ def _check_seen(world: World, constraints: Constraints) -> None:
     """
     if world.level == FULL:
         return
-    for atom, touched in (("without", _touched), ("without_tool", _handled)):
+    for atom, touched in (("without", World.touched), ("without_tool", _handled)):
         forbidden = [(name, labels) for each, name, labels in constraints.named() if each == atom]
         hidden: set[str] = set()
         for unit, image in zip(world.full.foon.units, world.images, strict=True) if forbidden else ():
@@ -101,11 +101,6 @@ def _check_seen(world: World, constraints: Constraints) -> None:
                     f"level {world.level} does not show all that has to do with {label!r}, so {name!r} cannot"
                     " hold there; ask on level 3"
                 )
-
-
-def _touched(world: World, unit: FunctionalUnit) -> set[str]:
-    """Return the labels that a unit touches, as `touching.lp` has it."""
-    return {label for number in (*unit.inputs, *unit.outputs) for label in world.node(number).named_labels}
 
 
 def _handled(world: World, unit: FunctionalUnit) -> set[str]:

@@ -12,24 +12,28 @@ from foon_asp.io.similar import ingredient_vectors
 from foon_asp.model.node import check_label
 from foon_asp.model.similarity import Likeness, Similar, Similarity, Table, Words
 from foon_asp.model.world import World
-from foon_asp.numbers import LIKENESS
+from foon_asp.numbers import LIKENESS, SHARE
 from foon_asp.values import a_list, said
 
 SOURCES = ("foon", "vectors")
 """What tells which labels are alike, beside a table: the FOON itself, and vectors of ingredients."""
+
+BY_TABLE = "as the table says"
+"""Why one label stands for another where a table has no note."""
 
 
 @dataclass(frozen=True, slots=True)
 class Replacement:
     """A label, and what replaces it or may; None if it is left out. `why` says who says so.
 
-    `likeness` is above 0 and at most 1, and how well the one stands for the other.
+    `likeness` is above 0 and at most 1, and how well the one stands for the other. What is left out may have
+    a likeness of 0.
     """
 
     label: str
     by: str | None
     likeness: float
-    why: str = "as the table says"
+    why: str = BY_TABLE
 
     def __post_init__(self) -> None:
         """Raise `QueryError` for what no replacement can be; labels are in lower case."""
@@ -40,7 +44,8 @@ class Replacement:
             check_label(value, f"{name!r} of a replacement")
             if name != "why":
                 object.__setattr__(self, name, value.strip().lower())
-        object.__setattr__(self, "likeness", LIKENESS.checked(self.likeness, "likeness"))
+        kind = SHARE if self.by is None else LIKENESS
+        object.__setattr__(self, "likeness", kind.checked(self.likeness, "likeness"))
         if self.label == self.by:
             raise QueryError(f"{said(self.label)} is replaced by itself")
 
@@ -118,7 +123,7 @@ def read_substitutes(path: Path) -> list[Replacement]:
         try:
             label, by, likeness, note = fields if len(fields) > 3 else [*fields, ""]
             value = LIKENESS.read(likeness)
-            row = Replacement(label, None if by == "-" else by, value, note or "as the table says")
+            row = Replacement(label, None if by == "-" else by, value, note or BY_TABLE)
         except (ValueError, QueryError):
             advice = "write label<tab>replaced by<tab>likeness<tab>note, the likeness above 0 and at most 1"
             raise InputError(path, line, f"cannot read {said(text)}", advice) from None

@@ -20,12 +20,13 @@ from foon_asp.errors import QueryError
 from foon_asp.io.files import kind_of
 from foon_asp.io.objects import object_from_json, refuse_unknown_keys
 from foon_asp.io.wire import HalfCharacterError, JsonObject, Text, converted, means
-from foon_asp.numbers import COUNT, LEAST_SUCCESS, MEGABYTES, SECONDS
+from foon_asp.numbers import COUNT, LEAST_SUCCESS, LIKENESS, MEGABYTES, SECONDS
 from foon_asp.query.constraints import ConstraintKeys, Constraints
 from foon_asp.query.goals import Named
 from foon_asp.query.kitchen_change import KitchenChange
 from foon_asp.query.method import Method
 from foon_asp.query.query import Query
+from foon_asp.query.substitution import BY_TABLE, SOURCES, Replacement
 from foon_asp.values import said
 from foon_asp.words import closest
 
@@ -77,6 +78,27 @@ class ConstraintsJson(JsonObject, omit_defaults=True):
         return Constraints.of(cast(ConstraintKeys, structs.asdict(self)))
 
 
+class SubstituteJson(JsonObject, omit_defaults=True):
+    """A label, and what may replace it, as a line of a table says it."""
+
+    label: Annotated[Text, means("What the data call it.")]
+    by: Annotated[Text | None, means("What may replace it; null if it may be left out.")]
+    likeness: Annotated[
+        float,
+        Meta(gt=LIKENESS.least, le=LIKENESS.most),
+        means("How well it does so; at 1 nobody would notice."),
+    ]
+    note: Annotated[Text, means("What is told with it.")] = BY_TABLE
+
+    def read(self) -> Replacement:
+        """Return the replacement; raise `QueryError` for one that cannot be made."""
+        return Replacement(self.label, self.by, self.likeness, self.note)
+
+
+Source = Annotated[str, Meta(extra_json_schema={"enum": [*SOURCES]})]
+"""What tells which labels are alike."""
+
+
 class QueryJson(JsonObject, kw_only=True, omit_defaults=True, dict=True):
     """One query. What is left out is as on the command line."""
 
@@ -124,6 +146,13 @@ class QueryJson(JsonObject, kw_only=True, omit_defaults=True, dict=True):
     constraints: Annotated[ConstraintsJson, means("What the tree must and must not do.")] = field(
         default_factory=ConstraintsJson
     )
+    substitute: Annotated[
+        bool | Source | tuple[Source | SubstituteJson, ...],
+        means(
+            "What may be replaced where there is no tree otherwise: as a source says, or as a list of "
+            "sources and replacements does. True is the source foon; false, nothing."
+        ),
+    ] = False
 
     def query(self) -> Query:
         """Return the question that is asked; raise `QueryError` for whatever is wrong with it."""
@@ -144,7 +173,13 @@ class QueryJson(JsonObject, kw_only=True, omit_defaults=True, dict=True):
                 _all_named("add", self.add),
                 _all_named("remove", self.remove),
             ),
+            substitute=self._substitute(),
         )
+
+    def _substitute(self) -> bool | str | list[str | Replacement]:
+        if not isinstance(self.substitute, tuple):
+            return self.substitute
+        return [each.read() if isinstance(each, SubstituteJson) else each for each in self.substitute]
 
 
 def _all_named(key: str, values: Iterable[object]) -> tuple[Named, ...]:
@@ -222,6 +257,10 @@ def read_query(value: dict[str, Any]) -> Query:
     _check_keys(value, QueryJson, "key")
     if isinstance(value.get("constraints"), dict):
         _check_keys(value["constraints"], ConstraintsJson, "constraint")
+    if isinstance(value.get("substitute"), list):
+        for row in value["substitute"]:
+            if isinstance(row, dict):
+                _check_keys(row, SubstituteJson, "key of a replacement")
     try:
         asked = converted(value, QueryJson)
     except msgspec.ValidationError as error:
@@ -250,6 +289,7 @@ _TYPES = {
 _BOUNDS = {">=": "at least", ">": "above", "<=": "at most", "<": "below"}
 _WRONG_TYPE = re.compile(r"Expected `([^`]+)`, got")
 _OUT_OF_BOUNDS = re.compile(r"Expected `\w+` ([<>]=?) (\S+)")
+_LACKING = re.compile(r"Object missing required field `(\w+)`")
 _WHERE = re.compile(r" - at `\$\.?(.*)`$")
 
 
@@ -263,6 +303,8 @@ def _refusal(error: msgspec.ValidationError, value: object, path: str = "") -> Q
         value = _part(value, path)
     elif not path:
         return QueryError("the query has no 'goal'")
+    if match := _LACKING.match(message):
+        return QueryError(f"{said(path)} has no {said(match[1])}")
     if match := _WRONG_TYPE.match(message):
         names = match[1].split(" | ")
         wanted = " or ".join(_TYPES[name] for name in names if name != "int" or "float" not in names)

@@ -15,12 +15,16 @@ from foon_asp.words import chance_text, counted, short_source, wrapped
 
 def retrieval_text(result: Answer) -> str:
     """Write a task tree as numbered steps, or say why there is none."""
+    changes = () if result.tree is None else map(str, result.tree.replacements)
+    return "\n".join(retrieval_lines(result, changes)) + "\n"
+
+
+def retrieval_lines(result: Answer, changes: Iterable[str]) -> list[str]:
+    """Return the lines of the same; what was changed in the tree stands before its steps."""
     lines = [str(result.goal), _verdict(result)]
     if result.tree is not None:
-        lines += map(str, result.tree.replacements)
-        lines.append("")
-        lines += steps_text(result.tree)
-    return "\n".join(lines) + "\n"
+        lines += [*changes, "", *steps_text(result.tree)]
+    return lines
 
 
 def _verdict(result: Answer) -> str:

@@ -79,7 +79,8 @@ class TaskTree:
     unit in which round of parallel execution it is done (0 if never); `executable` says how the replay ended.
     `human` are the units that a human does and never fails at. A tree that was read back from JSON has a
     small world of its own, and a `record` of what only the world that it was made in could tell. So has one
-    in which something was replaced: `replacements` are those that its steps are shown with.
+    in which something was replaced: `replacements` are those that its steps are shown with, `brought` what is
+    in its kitchen and not in that of the question.
     """
 
     world: World
@@ -90,6 +91,7 @@ class TaskTree:
     human: frozenset[UnitId] = frozenset()
     record: Record | None = None
     replacements: tuple[Replacement, ...] = ()
+    brought: tuple[ObjectNode, ...] = ()
 
     @classmethod
     def of(

@@ -218,7 +218,7 @@ class ReplacementJson(JsonObject):
 
     label: Annotated[Text, means("What the data call it.")]
     by: Annotated[Text | None, means("What replaces it; null if it is left out.")]
-    likeness: Annotated[float, Meta(gt=0, le=1), means("How well it does so; at 1 nobody would notice.")]
+    likeness: Annotated[Chance, means("How well it does so; at 1 nobody would notice.")]
     why: Annotated[Text, means("Who says so: the note of a table, or the measure.")]
 
 

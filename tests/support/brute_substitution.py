@@ -6,7 +6,7 @@ Written from the definitions of docs/substituting.md alone; shares nothing with
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import combinations, permutations, product
 
 from foon_asp.model.node import FunctionalUnit, ObjectNode, State, UnitId
@@ -82,28 +82,59 @@ def stands_for(one: ObjectNode, other: ObjectNode, labels: Labels) -> bool:
 
 def permitted(world: World, unit: FunctionalUnit, labels: Labels, without: Collection[str]) -> bool:
     """Whether a unit with its labels replaced touches nothing forbidden, and renames nothing it brings."""
-    inputs, outputs = ([world.foon.objects[o] for o in ports] for ports in (unit.inputs, unit.outputs))
-    before, behind = ({label for node in nodes for label in node.named_labels} for nodes in (inputs, outputs))
-    touched = {labels.get(label, label) for label in before | behind}
-    made = {label for node in brute_force.makes(world, unit) for label in node.named_labels}
-    return not touched & set(without) and not any(labels.get(label) for label in made - before)
+    nodes = [world.foon.objects[o] for o in (*unit.inputs, *unit.outputs)]
+    touched = {labels.get(label, label) for node in nodes for label in node.named_labels}
+    return not touched & set(without) and not any(map(labels.get, made_new(world, unit)))
 
 
-def makes_goal(world: World, goal: ObjectNode, units: Collection[UnitId], labels: Labels) -> bool:
+def made_new(world: World, unit: FunctionalUnit) -> set[str]:
+    """Return the labels that a unit makes of things that do not name them."""
+    inputs = (world.foon.objects[number] for number in unit.inputs)
+    before = {label for node in inputs for label in node.named_labels}
+    return {label for node in brute_force.makes(world, unit) for label in node.named_labels} - before
+
+
+def makes_goal(
+    world: World,
+    goal: ObjectNode,
+    units: Collection[UnitId],
+    labels: Labels,
+    brought: Collection[ObjectNode] = (),
+) -> bool:
     """Whether the units can all be executed with the labels replaced, and bring the goal about."""
-    sources = {node for node in world.kitchen.objects if not labels.keys() & set(node.named_labels)}
+    waiting, there = executed(world, units, labels, brought)
+    return not waiting and there(goal)
+
+
+def executed(
+    world: World,
+    units: Collection[UnitId],
+    labels: Labels,
+    brought: Collection[ObjectNode] = (),
+    gone: Callable[[ObjectNode], bool] = lambda _: False,
+    free: Callable[[ObjectNode], bool] = lambda _: False,
+) -> tuple[list[FunctionalUnit], Callable[[ObjectNode], bool]]:
+    """Execute units with labels replaced as far as that goes: return those that are left, and what is there.
+
+    Beside the kitchen there is what becomes of the nodes that are `brought`. What is `gone` is never there,
+    and what is `free` always.
+    """
+    stock = world.kitchen.objects
+    sources = {node for node in stock if node in brought or not labels.keys() & set(node.named_labels)}
     waiting = [world.foon.units[number] for number in units]
 
     def there(node: ObjectNode) -> bool:
-        if labels.get(node.label, node.label) is None:
+        if labels.get(node.label, node.label) is None or free(node):
             return True
-        return any(stands_for(source, node, labels) for source in sources)
+        if gone(node):
+            return False
+        return node in brought or any(stands_for(each, node, labels) for each in sources if not gone(each))
 
     while ready := [unit for unit in waiting if all(map(there, brute_force.needs(world, unit)))]:
         waiting = [unit for unit in waiting if unit not in ready]
         for unit in ready:
             sources |= brute_force.makes(world, unit)
-    return not waiting and there(goal)
+    return waiting, there
 
 
 def best(

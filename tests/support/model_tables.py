@@ -386,6 +386,15 @@ RETRIEVAL = (
         ('replace("milk",cream)',),
     ),
     Case(
+        "retrieval/adapt.lp",
+        "what is wanted replaces what must go, or is added beside what stays, in a tree that needs it",
+        'goal(soup). wanted("oat";"rye"). stored(milk). names(milk,"milk"). kitchen(nut). label(nut,"nut"). '
+        'label(milk,"milk"). alike("milk","oat",300). near("nut","rye",300). :- not replace("milk",_).',
+        "replace/2 beside/2 absent/1 use/1",
+        ('beside("rye","nut") replace("milk","oat") use(cook) use(stir)',),
+        recipes="stir: nut -> paste; cook: paste, milk -> soup; toast: nut -> soup",
+    ),
+    Case(
         "retrieval/missing.lp",
         "raw things come before prepared ones, and few before many",
         'goal(soup). label(soup,"soup"). label(stock,"stock"). label((bone;water;salt),"raw").',

@@ -15,6 +15,7 @@ COMMANDS = {
     "draw": _command("draw", "draw task trees, plans, menus, FOONs, and what is missing"),
     "suggest": _command("suggest", "say what can be cooked, the best dishes first"),
     "menu": _command("menu", "make several dishes, and share their steps"),
+    "adapt": _command("adapt", "adapt the nearest dish: with some ingredients, without others"),
     "reach": _command("reach", "say what the kitchen can make"),
     "compare": _command("compare", "compare all methods, reference and founded, with the proven optimum"),
     "check": _command("check", "replay trees that others made, and say what is wrong with them"),
