@@ -25,18 +25,19 @@ from foon_asp.io.transitions import Orders, read_orders, stated_orders
 from foon_asp.io.trees import TreeBuilder, TreeFile, trees_beside
 from foon_asp.io.unknown_words import unknown
 from foon_asp.io.vocabulary import VocabularyName
-from foon_asp.model.alignment import Likeness, Measure
+from foon_asp.model.alignment import LEAST_LIKENESS, Likeness, Measure
 from foon_asp.model.foon import Foon, FoonBuilder
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import Annotation, ObjectId, ObjectNode, UnitId, check_label
 from foon_asp.model.relations import Matching
 from foon_asp.model.world import World as ModelWorld
-from foon_asp.numbers import COUNT, SOME
+from foon_asp.numbers import COUNT, LIKENESS, SOME
 from foon_asp.query.constraints import Constraints
 from foon_asp.query.goals import Named, find_object, written_object
 from foon_asp.query.kitchen_change import KitchenChange
 from foon_asp.query.objective import Objective
 from foon_asp.query.query import Query
+from foon_asp.query.substitution import Replacement, Substitution
 from foon_asp.render.explorer import explorer_page
 from foon_asp.retrieval.adapt import Adaptation, adapt_dish
 from foon_asp.retrieval.alternatives import (
@@ -478,7 +479,7 @@ class ConsolidateKeys(TypedDict, total=False):
     adjacent: bool
     kitchen: Kitchen | Iterable[Named] | None
     utensils: Iterable[str]
-    likeness: Likeness | None
+    likeness: Likeness | str | Iterable[str | Replacement] | None
     least_likeness: float
     constraints: Constraints | None
     strict: bool
@@ -495,12 +496,13 @@ def consolidate(*trees: Tree, **asked: Unpack[ConsolidateKeys]) -> Consolidation
     cost, if `costs` are named (a file, or a dictionary), else the number of steps. `states`, `locations` and
     `motions` are the orders in which these may come (files, or lists of lists); with `adjacent=True` only the
     next word of an order may follow. `kitchen` is what is at hand, without it what no unit of the trees
-    makes. `likeness` says how alike two labels are in meaning; those of `least_likeness` are taken for one.
-    Raises `InputError` for a file that cannot be read, and `QueryError`.
+    makes. `likeness` says how alike two labels are in meaning: a function of both, from 0 to 1, or as
+    `substitute` of a `Query` "vectors" and replacements; those of `least_likeness` are taken for one. Raises
+    `InputError` for a file that cannot be read, and `QueryError`.
     """
     if unknown := asked.keys() - ConsolidateKeys.__annotations__.keys():
         raise TypeError(f"consolidate() got an unexpected keyword argument {min(unknown)!r}")
-    goal, likeness = asked.get("goal"), asked.get("likeness")
+    goal = asked.get("goal")
     question = Query(
         *(() if goal is None else (goal,)),
         by=asked.get("by", ()),
@@ -517,13 +519,25 @@ def consolidate(*trees: Tree, **asked: Unpack[ConsolidateKeys]) -> Consolidation
             "motion": _orders(asked.get("motions", ()), "motions"),
         },
         asked.get("adjacent", False),
-        None if likeness is None else Measure(likeness, asked.get("least_likeness", 0.8)),
+        _measure(asked),
         asked.get("strict", False),
         asked.get("match_relations", "loose"),
     )
     files = _tree_files(trees, asked.get("vocabulary", "current"))
     _warn_of_losses([finding for file in files for finding in file.findings])
     return consolidate_trees(trees_beside(FoonBuilder().build(), files), query)
+
+
+def _measure(asked: ConsolidateKeys) -> Measure | None:
+    """Return which labels mean the same, if anything says that."""
+    given = asked.get("likeness")
+    if given is None:
+        return None
+    least = LIKENESS.checked(asked.get("least_likeness", LEAST_LIKENESS), "least_likeness")
+    if callable(given):
+        return Measure(given, least)
+    substitution = Substitution.of(given)
+    return None if substitution is None else Measure(substitution.alike(), least)
 
 
 def _kitchen(asked: ConsolidateKeys) -> Kitchen:

@@ -19,6 +19,7 @@ from foon_asp.model.foon import Foon
 from foon_asp.model.node import ObjectNode
 from foon_asp.model.world import World
 from foon_asp.query.goals import Named, find_object
+from foon_asp.query.substitution import SOURCES
 from foon_asp.resources import diets
 from foon_asp.values import said
 from foon_asp.words import counted, cut
@@ -50,6 +51,8 @@ def paths_to_read(options: argparse.Namespace) -> list[Path]:
             Path(each) for each in ([value] if isinstance(value, str) else value or ()) if each != STDIN
         )
     found += (Path(name) for name in getattr(options, "diets", ()) if name not in diets())
+    alike = (name for each in ("substitute", "similar") for name in getattr(options, each, ()))
+    found += (Path(name) for name in alike if name not in SOURCES)
     if hasattr(options, "foon"):
         found += sources(options).paths
     elif getattr(options, "data", None) is not None:

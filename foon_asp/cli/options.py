@@ -8,9 +8,21 @@ from typing import Any
 
 from foon_asp.cli.parser import Parser
 from foon_asp.io.vocabulary import VOCABULARIES
+from foon_asp.model.alignment import LEAST_LIKENESS
 from foon_asp.model.consumption import SEMANTICS
 from foon_asp.model.relations import MATCHINGS, Matching
-from foon_asp.numbers import COST, COUNT, FACTOR, LEAST_SUCCESS, MEGABYTES, RATE, SECONDS, SOME, Number
+from foon_asp.numbers import (
+    COST,
+    COUNT,
+    FACTOR,
+    LEAST_SUCCESS,
+    LIKENESS,
+    MEGABYTES,
+    RATE,
+    SECONDS,
+    SOME,
+    Number,
+)
 from foon_asp.query.constraints import KINDS, Form
 from foon_asp.query.method import Method
 from foon_asp.query.objective import CRITERIA
@@ -39,6 +51,7 @@ cost = _reader(COST)
 number = _reader(COUNT)
 positive = _reader(SOME)
 factor = _reader(FACTOR)
+likeness = _reader(LIKENESS)
 
 
 def names(text: str) -> str:
@@ -280,6 +293,25 @@ def substitute(parser: Parser, more: str = "") -> None:
         help="replace what is missing or forbidden by what is alike: as a table says, lines of"
         " label<tab>replaced by<tab>likeness<tab>note; by its uses in the FOON (foon; so without a value); by"
         f" vectors of ingredients (vectors, with foon-asp[similar]){more}",
+    )
+
+
+def similar(group: argparse._ActionsContainer) -> None:
+    """Add which labels mean the same."""
+    group.add_argument(
+        "--similar",
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="labels that mean the same: as a table says, lines of label<tab>other<tab>likeness<tab>note; by"
+        " vectors of ingredients (vectors, with foon-asp[similar])",
+    )
+    group.add_argument(
+        "--least-likeness",
+        type=likeness,
+        default=LEAST_LIKENESS,
+        metavar="L",
+        help=f"how alike they are at least (default: {LEAST_LIKENESS:g})",
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -52,12 +53,17 @@ def question(options: argparse.Namespace, *goals: Named) -> Query:
 
 
 def _substitution(options: argparse.Namespace) -> list[Given] | None:
-    """Return the sources that are named, and the rows of the tables."""
-    named: list[str] = getattr(options, "substitute", [])
+    """Return what `--substitute` names, if anything."""
+    return likenesses(getattr(options, "substitute", [])) or None
+
+
+def likenesses(named: Iterable[str]) -> list[Given]:
+    """Return the sources of likenesses that are named, and the rows of the tables."""
+    named = list(named)
     given: dict[Given, None] = dict.fromkeys(each for each in named if each in SOURCES)
     for path in dict.fromkeys(each for each in named if each not in SOURCES):
         given.update(dict.fromkeys(read_substitutes(Path(path))))
-    return list(given) or None
+    return list(given)
 
 
 def _constraints(options: argparse.Namespace) -> Constraints:

@@ -19,6 +19,9 @@ from foon_asp.model.spelling import misspellings
 Likeness = Callable[[str, str], float]
 """How alike two labels are in meaning, from 0 to 1; it is symmetric."""
 
+LEAST_LIKENESS = 0.8
+"""How alike two labels are at least that are taken for one, where nobody says it."""
+
 _APART = re.compile(r"[\s_-]+")
 
 
@@ -27,7 +30,7 @@ class Measure:
     """A measure of likeness, and how alike two labels are at least that are taken for one."""
 
     likeness: Likeness
-    least: float
+    least: float = LEAST_LIKENESS
 
 
 @dataclass(frozen=True, slots=True)

@@ -115,7 +115,9 @@ class Foon:
             chosen = np.flatnonzero(is_goal[codes])
             owners, values = ports.owners[chosen].tolist(), ports.values[chosen].tolist()
             marks = map(goals.__getitem__, codes[chosen].tolist())
-            found += [(unit, side, port, mark) for unit, port, mark in zip(owners, values, marks, strict=True)]
+            found += [
+                (unit, side, port, mark) for unit, port, mark in zip(owners, values, marks, strict=True)
+            ]
         marked: dict[ObjectId, set[str]] = {}
         # Sorting keeps the order of the ports of one side.
         for _, _, port, mark in sorted(found, key=lambda each: each[:2]):

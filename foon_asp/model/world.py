@@ -272,7 +272,8 @@ class World:
 
     def touched(self, *units: FunctionalUnit) -> Set[str]:
         """Return the labels that some units have to do with, as `touching.lp` has it."""
-        return {label for node in self._listed(units) for label in node.named_labels}
+        numbers = {number for unit in units for number in (*unit.inputs, *unit.outputs)}
+        return {label for number in numbers for label in self.node(number).named_labels}
 
     def handled(self, *units: FunctionalUnit) -> Set[str]:
         """Return the utensils that some units handle: what they list, and what that is in or on."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -96,13 +96,29 @@ class Substitution:
 
     def similar(self, world: World) -> Similar:
         """Return the measure of labels in a world, the most trusted first."""
+        return Similar([*self._measures(), *([world.uses] if "foon" in self.sources else [])])
+
+    def _measures(self) -> list[Similarity]:
+        """Return the measures that are the same in all worlds."""
         pairs = {(row.label, row.by): Likeness(row.likeness, row.why) for row in self.table if row.by}
-        measures: list[Similarity] = [Table(pairs)]
-        if "vectors" in self.sources:
-            measures.append(Words(ingredient_vectors()))
+        return [Table(pairs), *([Words(ingredient_vectors())] if "vectors" in self.sources else [])]
+
+    def alike(self) -> Callable[[str, str], float]:
+        """Return how alike two labels are, whichever stands for the other; 0 if nothing is known of them.
+
+        That takes no FOON. Raises `QueryError` if a FOON is to say it, or if something is left out.
+        """
         if "foon" in self.sources:
-            measures.append(world.uses)
-        return Similar(measures)
+            raise QueryError("labels are the same by a table or by vectors, not by foon: name one of these")
+        if left_out := [row.label for row in self.table if row.by is None]:
+            raise QueryError(f"{said(left_out[0])} is the same as nothing; name two labels a line")
+        similar = Similar(self._measures())
+
+        def likeness(one: str, other: str) -> float:
+            found = (similar.likeness(one, other), similar.likeness(other, one))
+            return max((each.value for each in found if each is not None), default=0.0)
+
+        return likeness
 
     def check(self, world: World) -> None:
         """Raise `QueryError` for a table that replaces utensils, or makes some of them."""

@@ -75,8 +75,7 @@ def _shows(node: ObjectNode, label: str, labels: Labels, beside: Beside) -> bool
 
 
 def _tool(world: World, node: ObjectNode) -> bool:
-    empty = not any(state.contents for state in node.states)
-    return node.bare or (node.label in world.kitchen.utensils and empty)
+    return node.label in world.kitchen.utensils and not any(state.contents for state in node.states)
 
 
 def _missing(

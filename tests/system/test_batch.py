@@ -26,6 +26,7 @@ from foon_asp.batch.tasks import DIED
 from foon_asp.errors import InputError
 from foon_asp.io.folder import Dataset, Sources
 from foon_asp.query.query import Query
+from foon_asp.query.substitution import Replacement
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.wire import row_json
 from support.batch_runs import (
@@ -125,6 +126,37 @@ def test_goals_kitchens_methods_and_constraints(
     assert {world.foon.objects[thing].label for thing in made} >= {"greek salad", "hummus"}
 
 
+SWAP = {"label": "cheddar cheese", "by": "parmesan cheese", "likeness": 0.8, "note": "melts less"}
+
+
+def test_queries_may_replace_what_is_missing(
+    batch: Callable[..., list[dict[str, Any]]], built_in: Dataset
+) -> None:
+    left_out = {"label": "cheddar cheese", "by": None, "likeness": 0.5}
+    note = Replacement("cheddar cheese", "parmesan cheese", 0.8, "melts less")
+    goal = "omelette [cooked]"
+    query = {"goal": goal, "constraints": {"without": ["cheddar cheese"]}}
+    asked: list[tuple[object, Any]] = [
+        ([SWAP], [note]),
+        (["foon", SWAP, left_out], ["foon", note, Replacement("cheddar cheese", None, 0.5)]),
+        ([left_out], [Replacement("cheddar cheese", None, 0.5)]),
+        (True, "foon"),
+        ("foon", True),
+        (False, None),
+    ]
+    rows = batch([query | {"substitute": given} for given, _ in asked])
+    world = built_in.world()
+    for row, (_, given) in zip(rows, asked, strict=True):
+        answer = retrieve(world, Query(goal, without=["cheddar cheese"], substitute=given))
+        value = json.loads(answer.to_json())
+        del value["seconds"]
+        assert {key: row[key] for key in value} == value
+    assert [row["status"] for row in rows] == ["optimal"] * 5 + ["unreachable"]
+    assert rows[0]["replacements"][0] == {key: SWAP[key] for key in ("label", "by", "likeness")} | {
+        "why": "melts less"
+    }
+
+
 @pytest.mark.parametrize(
     ("query", "message"),
     [
@@ -162,8 +194,13 @@ def test_goals_kitchens_methods_and_constraints(
         ({"goal": "ice", "remove": [{"label": "sugra"}]}, "the kitchen has no sugra to remove"),
         ({"goal": "\udcff"}, "no object has this label"),
         ('{"goal": "ice", "id": 1e999}', "'id' is a number that is too large"),
+        ({"goal": "ice", "substitute": "fon"}, "'substitute' goes by foon or vectors, not by 'fon'"),
+        ({"goal": "ice", "substitute": [{"label": "a", "likeness": 1}]}, "'substitute[0]' has no 'by'"),
+        ({"goal": "ice", "substitute": [SWAP | {"likeness": 0}]}, "'substitute[0].likeness' is above 0"),
+        ({"goal": "ice", "substitute": [SWAP | {"why": "x"}]}, "unknown key of a replacement 'why'"),
+        ({"goal": "ice", "substitute": True, "method": "ids"}, "by the method 'optimal' alone"),
     ],
-    ids=range(25),
+    ids=range(30),
 )
 def test_a_wrong_query_is_one_error_row(
     query: Drawn, message: str, batch: Callable[..., list[dict[str, Any]]]
@@ -254,10 +291,11 @@ def test_the_query_schema_takes_what_is_read(batch: Callable[..., list[dict[str,
             "human_steps": None,
             "diets": ["vegan"],
         },
+        "substitute": ["foon", SWAP],
     }
     validator.validate(full)
     batch([full])
-    for key in ("goal", "by", "constraints", "time_limit", "add"):
+    for key in ("goal", "by", "constraints", "time_limit", "add", "substitute"):
         assert not validator.is_valid(full | {key: 5.5 if key != "time_limit" else "5"}), key
     assert not validator.is_valid(full | {"gaol": "ice"})
 

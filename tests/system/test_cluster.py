@@ -144,6 +144,11 @@ def test_results_name_files_as_the_local_run_does(
         {"goal": "hummus"},
         {"goal": "whipped cream", "kitchen": []},
         {"goal": "ice", "add": ["salt"]},
+        {
+            "goal": "omelette [cooked]",
+            "constraints": {"without": ["salt"]},
+            "substitute": [{"label": "salt", "by": None, "likeness": 0.5}],
+        },
     ]
     queries = write_queries(tmp_path / "q.jsonl", asked)
     command = ["batch", "--queries", queries, "--data", folder, "--foon", foon]
@@ -151,9 +156,10 @@ def test_results_name_files_as_the_local_run_does(
     remote = program(*command, "-o", "b.jsonl", "--scheduler", cluster.address, *ship)
     subprocess.run(remote, capture_output=True, timeout=60, check=True)
     assert (tmp_path / "b.jsonl").read_bytes() == (tmp_path / "a.jsonl").read_bytes()
-    first = read_rows(tmp_path / "b.jsonl")[0]
+    first, *_, replaced = read_rows(tmp_path / "b.jsonl")
     read = str(text) if foon.endswith(".foon") else foon
-    assert {unit["source"]["file"] for unit in first["units"]} == {read}
+    assert {unit["source"]["file"] for row in (first, replaced) for unit in row["units"]} == {read}
+    assert [row["label"] for row in replaced["replacements"]] == ["salt"]
     until(lambda: not list(cluster.folder.rglob("foon-asp-*")))
 
 

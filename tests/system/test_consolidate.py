@@ -156,6 +156,56 @@ def test_likeness_is_a_function_of_the_users() -> None:
     assert made
 
 
+TWO_WORDS = (
+    "O\taubergine\nS\traw\nM\tfry\nO\taubergine\nS\tfried\n//\n",
+    "O\teggplant\nS\traw\nM\tcut\nO\teggplant\nS\tcut\n//\nO\teggplant\nS\tcut\nM\tfry\nO\teggplant\nS\tfried\n//\n",
+)
+
+
+@pytest.mark.parametrize(
+    ("row", "flags", "joined"),
+    [
+        ("eggplant\taubergine\t0.9", [], True),
+        ("aubergine\teggplant\t0.8", [], True),
+        ("aubergine\teggplant\t0.7", [], False),
+        ("aubergine\teggplant\t0.7", ["--least-likeness", "0.7"], True),
+        ("aubergine\ttomato\t1", [], False),
+    ],
+)
+def test_similar_labels_are_taken_for_one(
+    folder: Path, capsys: pytest.CaptureFixture[str], row: str, flags: list[str], joined: bool
+) -> None:
+    for name, text in zip(("one.txt", "other.txt"), TWO_WORDS, strict=True):
+        (folder / name).write_text(text, encoding="utf-8")
+    (folder / "words.tsv").write_text(row, encoding="utf-8")
+    value = output(capsys, "consolidate", "one.txt", "other.txt", "--similar", "words.tsv", *flags)
+    found = [(each["word"], each["instead"], each["why"]) for each in value["reworded"]]
+    assert found == [("aubergine", "eggplant", "likeness")] * joined
+    label, other, likeness = row.split("\t")
+    made = fa.consolidate(
+        "one.txt",
+        "other.txt",
+        likeness=[fa.Replacement(label, other, float(likeness))],
+        least_likeness=float(flags[-1]) if flags else 0.8,
+    )
+    assert json.loads(made.to_json())["reworded"] == value["reworded"]
+
+
+def test_what_cannot_say_which_labels_are_the_same_is_refused(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "words.tsv").write_text("salt\t-\t0.5\n", encoding="utf-8")
+    for given, said in (
+        ("foon", "by a table or by vectors, not by foon"),
+        ("words.tsv", "'salt' is the same as nothing; name two labels a line"),
+        ("none.tsv", "none.tsv: no such file"),
+    ):
+        status, out, err = run(capsys, "consolidate", *TREES, "--similar", given)
+        assert (status, out) == (2, "")
+        assert said in err
+    assert run(capsys, "consolidate", *TREES, "--similar", "words.tsv", "--least-likeness", 0)[0] == 2
+
+
 @pytest.mark.parametrize("name", ["tree.txt", "tree.json"])
 def test_the_tree_is_written_by_its_suffix(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     status, _, err = run(capsys, "consolidate", *TREES, *MODELS, "--write-tree", name)

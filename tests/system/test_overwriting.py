@@ -30,6 +30,7 @@ def house(tmp_path: Path) -> Path:
     (folder / "g.json").write_text('[{"label": "ice", "states": ["crushed"]}]')
     (folder / "labels.txt").write_text("egg\n")
     (folder / "rates.txt").write_text("chop\t0.5\n")
+    (folder / "swaps.tsv").write_text("egg\ttofu\t0.3\n")
     (folder / "rule.lp").write_text("violated(never,1) :- use(U), U < 0.\n")
     (folder / "ask.lp").write_text("one(U) :- unit(U).\n")
     (folder / "q.jsonl").write_text('{"goal": "ice"}\n')
@@ -51,6 +52,7 @@ READS: list[tuple[list[str], str]] = [
     (["retrieve", "ice", "--utensils", "labels.txt"], "labels.txt"),
     (["retrieve", "ice", "--diet", "labels.txt"], "labels.txt"),
     (["retrieve", "ice", "--only-motions", "labels.txt"], "labels.txt"),
+    (["retrieve", "ice", "--substitute", "swaps.tsv", "--substitute", "foon"], "swaps.tsv"),
     (["explain", "ice", "--constraint", "rule.lp"], "rule.lp"),
     (["query", "ask.lp"], "ask.lp"),
     (["stats", "f.txt"], "f.txt"),

@@ -11,13 +11,15 @@ from foon_asp.cli.inputs import open_trees, warn_of_findings
 from foon_asp.cli.messages import note
 from foon_asp.cli.output import Reply, check_targets
 from foon_asp.cli.parser import Parser
-from foon_asp.cli.question import question
+from foon_asp.cli.question import likenesses, question
 from foon_asp.io import atomic
 from foon_asp.io.formats import choose_format
 from foon_asp.io.kitchen import KitchenFiles
 from foon_asp.io.transitions import read_orders
+from foon_asp.model.alignment import Measure
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.relations import MATCHINGS
+from foon_asp.query.substitution import Substitution
 from foon_asp.render.consolidate import consolidation_text
 from foon_asp.retrieval.consolidate import ConsolidateQuery, Consolidation, consolidate_trees, foon_of
 from foon_asp.retrieval.consolidate_wire import consolidation_json
@@ -44,6 +46,7 @@ def configure(parser: Parser) -> None:
     group.add_argument(
         "--adjacent", action="store_true", help="only the next word of an order may follow, not any later one"
     )
+    add.similar(group)
     group = parser.add_argument_group("kitchen")
     add.kitchen(group, " (default: what no unit of the trees makes)")
     group.add_argument("--strict", action="store_true", help="need every input, implied views too")
@@ -90,6 +93,7 @@ def run(options: argparse.Namespace) -> Reply:
             if (path := getattr(options, flag))
         },
         options.adjacent,
+        _measure(options),
         strict=options.strict,
         match_relations=options.match_relations,
     )
@@ -102,6 +106,13 @@ def run(options: argparse.Namespace) -> Reply:
         {"foon": lambda: [tree_as_foon(found.answer)]},
         [found.status],
     )
+
+
+def _measure(options: argparse.Namespace) -> Measure | None:
+    if not options.similar:
+        return None
+    given = Substitution.of(likenesses(options.similar))
+    return None if given is None else Measure(given.alike(), options.least_likeness)
 
 
 def _write_tree(options: argparse.Namespace, target: Path, found: Consolidation) -> None:
