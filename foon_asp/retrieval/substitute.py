@@ -17,7 +17,7 @@ from foon_asp.asp.program import optimisers, too_deep
 from foon_asp.asp.terms import quote
 from foon_asp.errors import InternalError
 from foon_asp.model.foon import Added, FoonBuilder
-from foon_asp.model.kitchen import Kitchen
+from foon_asp.model.kitchen import Kitchen, seen_as
 from foon_asp.model.node import FunctionalUnit, ObjectId, ObjectNode, UnitId
 from foon_asp.model.relations import loosened
 from foon_asp.model.replacing import Changes, Differences, Replaced, Shape, matches, replaced, shape
@@ -123,13 +123,17 @@ class Space:
         """Whether an object names a label that may be replaced."""
         return any(map(self._replacements, self._world.node(number).named_labels))
 
+    def _node(self, number: ObjectId) -> ObjectNode:
+        """Return a node as relations are matched."""
+        return _as_read(self._world, self._world.node(number))
+
     @cached_property
     def _sources(self) -> dict[tuple[Shape, str], list[ObjectId]]:
         """The objects of each shape and label that are at hand or that units make."""
         found: dict[tuple[Shape, str], list[ObjectId]] = {}
         makers = self._world.units.makers
         for number in self._world.ids:
-            node = self._world.node(number)
+            node = self._node(number)
             form = shape(node)
             if form is not None and (number in self._world.stock or number in makers):
                 found.setdefault((form, node.label), []).append(number)
@@ -138,13 +142,13 @@ class Space:
     def _matches(self, number: ObjectId) -> dict[ObjectId, set[Differences]]:
         """Return the objects that may become the same as one, and the ways in which they may."""
         if number not in self._matched:
-            node = self._world.node(number)
+            node = self._node(number)
             form = shape(node)
             ways: dict[ObjectId, set[Differences]] = {}
             labels = (node.label, *sorted(self._united.get(node.label, ()))) if form is not None else ()
             for other in chain.from_iterable(self._sources.get((form or (), label), ()) for label in labels):
                 limits.check()
-                if other != number and (found := matches(node, self._world.node(other), self._may_unite)):
+                if other != number and (found := matches(node, self._node(other), self._may_unite)):
                     ways[other] = found
             self._matched[number] = ways
         return self._matched[number]
@@ -421,7 +425,7 @@ def _made_with(
         match_relations=world.match_relations,
         products=products,
     )
-    small = World(reading, kitchen)
+    small = World(reading, seen_as(kitchen, reading.stand_in) if reading.loose else kitchen)
     done = set(human)
     tree = TaskTree.of(
         small, map(small.id_of, wanted), list(own), [made for made, number in own.items() if number in done]

@@ -5,7 +5,10 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foon_asp.model.node import ObjectNode
+from foon_asp.model.foon import FoonBuilder
+from foon_asp.model.kitchen import Kitchen
+from foon_asp.model.levels import FULL
+from foon_asp.model.node import ObjectNode, State
 from foon_asp.model.world import World
 from foon_asp.query.query import Query
 from foon_asp.query.status import Status
@@ -41,12 +44,14 @@ def questions(draw: st.DrawFn) -> tuple[World, ObjectNode, list[Replacement], tu
     stock = draw(st.lists(st.builds(str.format, form, food), min_size=2, max_size=4, unique=True))
     utensils = draw(st.sampled_from([("bowl",), ()]))
     where = world(units, " + ".join(stock), utensils=utensils)
+    where = where.on_level(draw(st.sampled_from([3, 3, 3, 2, 1])))
     goal = where.foon.objects[where.foon.units[where.foon.units.ids[0]].outputs[0]]
     ways = st.tuples(food, st.sampled_from([*FOOD, None])).filter(lambda each: each[0] != each[1])
     pairs = draw(st.lists(ways, min_size=2, max_size=5, unique=True))
     rows = [Replacement(one, by, draw(st.sampled_from([0.3, 0.5, 0.7, 0.9, 1.0]))) for one, by in pairs]
     named = sorted(where.foon.named_labels.intersection(FOOD))
-    without = draw(st.lists(st.sampled_from(named), max_size=1))
+    # What a level does not show cannot be avoided there.
+    without = draw(st.lists(st.sampled_from(named), max_size=1)) if where.level == FULL else []
     return where, goal, rows, tuple(without)
 
 
@@ -77,3 +82,39 @@ def test_the_likest_replacements_are_found(
         for o in (*unit.inputs, *unit.outputs)
         for label in shown.node(o).named_labels
     } & set(without)
+
+
+def _on(node: ObjectNode) -> ObjectNode:
+    """Say `on` of an object where it is in something."""
+    return ObjectNode(
+        node.label,
+        tuple(
+            State("on", each.relatum) if each.name == "in" and each.relatum else each for each in node.states
+        ),
+    )
+
+
+@many(150)
+@given(questions().filter(lambda question: question[0].level == FULL))
+def test_relations_that_are_matched_loosely_change_nothing(
+    question: tuple[World, ObjectNode, list[Replacement], tuple[str, ...]],
+) -> None:
+    """What is on something in half of a FOON, and in it in the other, is replaced as if all were in it."""
+    where, goal, rows, without = question
+    builder = FoonBuilder()
+    for unit in where.foon.units:
+        sides = [[where.foon.objects[o] for o in ports] for ports in (unit.inputs, unit.outputs)]
+        if unit.id % 2:
+            sides = [[*map(_on, side)] for side in sides]
+        before, behind = ([builder.object(node) for node in side] for side in sides)
+        builder.unit(unit.motion, before, behind, unit.annotation)
+    stock = Kitchen(tuple(map(_on, where.kitchen.objects)), where.kitchen.utensils, {}, 1.0)
+    loose = World.of(builder.build(), stock, match_relations="loose")
+    answers = [retrieve(each, Query(goal, substitute=rows, without=without)) for each in (where, loose)]
+    assert answers[0].status == answers[1].status
+    plain, matched = (each.tree for each in answers)
+    if plain is not None and matched is not None:
+        assert matched.executable
+        assert len(matched) == len(plain)
+        costs = {brute_substitution.cost(each.replacements) for each in (plain, matched)}
+        assert len(costs) == 1

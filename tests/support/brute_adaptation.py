@@ -93,7 +93,10 @@ def _missing(
         def gone(node: ObjectNode) -> bool:
             return _shows(node, label, labels, beside)
 
-        _, there = executed(world, units, labels, brought, gone, lambda node: _tool(world, node))
+        def free(node: ObjectNode) -> bool:
+            return node != goal and _tool(world, node)
+
+        _, there = executed(world, units, labels, brought, gone, free)
         return there(goal)
 
     return sum(map(lacks, wanted))

@@ -1,7 +1,8 @@
 """The best task trees of a small FOON, by trying every set of its units.
 
 Written from the definitions alone: an input is needed unless it is an implied view, an output is made
-unless it is bare and only listed again. Shares nothing with `foon_asp.units` or the encodings.
+unless it is bare and only listed again; on level 1 it always is. Shares nothing with `foon_asp.units` or the
+encodings.
 """
 
 from __future__ import annotations
@@ -46,6 +47,8 @@ def makes(world: World, unit: FunctionalUnit) -> set[ObjectNode]:
 
 
 def made(world: World, inputs: Sequence[ObjectNode], outputs: Sequence[ObjectNode]) -> set[ObjectNode]:
+    if world.labels_only:
+        return set(outputs)
     there = {thing.label for thing in inputs} | world.kitchen.utensils
     return {thing for thing in outputs if thing.states or thing.label not in there}
 

@@ -395,6 +395,24 @@ RETRIEVAL = (
         recipes="stir: nut -> paste; cook: paste, milk -> soup; toast: nut -> soup",
     ),
     Case(
+        "retrieval/adapt.lp",
+        "what need not go stays, and what is wanted is added beside it",
+        'goal(soup). wanted("oat"). stored(milk). names(milk,"milk"). label(milk,"milk"). '
+        'alike("milk","oat",300). near("milk","oat",300).',
+        "replace/2 beside/2 absent/1 use/1",
+        ('beside("oat","milk") use(cook)',),
+        recipes="cook: milk -> soup",
+    ),
+    Case(
+        "retrieval/adapt.lp",
+        "nothing is added beside what only replaces something",
+        'goal(soup). wanted("rye"). label(milk,"milk"). stored(oat). label(oat,"oat"). near("oat","rye",1). '
+        'alike("milk","oat",300). match(1,milk,oat). differs(1,"milk","oat").',
+        "replace/2 beside/2 absent/1 use/1",
+        ('absent("rye") replace("milk","oat") use(cook)',),
+        recipes="cook: milk -> soup",
+    ),
+    Case(
         "retrieval/missing.lp",
         "raw things come before prepared ones, and few before many",
         'goal(soup). label(soup,"soup"). label(stock,"stock"). label((bone;water;salt),"raw").',
