@@ -12,6 +12,7 @@ from itertools import combinations, permutations, product
 from foon_asp.model.node import FunctionalUnit, ObjectNode, State, UnitId
 from foon_asp.model.world import World
 from foon_asp.query.substitution import Replacement
+from foon_asp.retrieval.tree import TaskTree
 from support import brute_force
 
 Labels = Mapping[str, str | None]
@@ -30,6 +31,13 @@ def every_replacement(rows: Iterable[Replacement]) -> Iterator[tuple[Replacement
 
 def cost(rows: Iterable[Replacement]) -> int:
     return sum(max(1, round(1000 * (1 - row.likeness))) for row in rows)
+
+
+def counts(world: World, tree: TaskTree, units: int) -> bool:
+    """Whether a tree has so many steps; fewer, if what is replaced may have made some of them the same."""
+    made = [row.by for row in tree.replacements if row.by is not None]
+    may_be_same = len(set(made)) < len(made) or not world.foon.named_labels.isdisjoint(made)
+    return len(tree) == units or (may_be_same and 0 < len(tree) < units)
 
 
 def dish(world: World, goal: ObjectNode) -> set[str]:
