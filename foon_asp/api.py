@@ -25,13 +25,13 @@ from foon_asp.io.transitions import Orders, read_orders, stated_orders
 from foon_asp.io.trees import TreeBuilder, TreeFile, trees_beside
 from foon_asp.io.unknown_words import unknown
 from foon_asp.io.vocabulary import VocabularyName
-from foon_asp.model.alignment import LEAST_LIKENESS, Likeness, Measure
+from foon_asp.model.alignment import Likeness, Measure
 from foon_asp.model.foon import Foon, FoonBuilder
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import Annotation, ObjectId, ObjectNode, UnitId, check_label
 from foon_asp.model.relations import Matching
 from foon_asp.model.world import World as ModelWorld
-from foon_asp.numbers import COUNT, LIKENESS, SOME
+from foon_asp.numbers import COUNT, LEAST_LIKENESS, LIKENESS, SOME
 from foon_asp.query.constraints import Constraints
 from foon_asp.query.goals import Named, find_object, written_object
 from foon_asp.query.kitchen_change import KitchenChange

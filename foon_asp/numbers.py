@@ -72,6 +72,8 @@ LEAST_SUCCESS = Number("a chance above 0 and at most 1", 0, 1, above=True)
 """How likely a tree must succeed; 0 would be no constraint."""
 LIKENESS = Number("a likeness above 0 and at most 1", 0, 1, above=True)
 """How well one thing stands for another; at 1 nobody would notice."""
+LEAST_LIKENESS = 0.8
+"""How alike two labels are at least that are taken for one, where nobody says it."""
 SHARE = Number("a likeness from 0 to 1", 0, 1)
 """How well a dish does without something; at 0 that is missed as much as can be."""
 SECONDS = Number("a number of seconds from 0", 0, _ANY)

@@ -8,13 +8,13 @@ from typing import Any
 
 from foon_asp.cli.parser import Parser
 from foon_asp.io.vocabulary import VOCABULARIES
-from foon_asp.model.alignment import LEAST_LIKENESS
 from foon_asp.model.consumption import SEMANTICS
 from foon_asp.model.relations import MATCHINGS, Matching
 from foon_asp.numbers import (
     COST,
     COUNT,
     FACTOR,
+    LEAST_LIKENESS,
     LEAST_SUCCESS,
     LIKENESS,
     MEGABYTES,

@@ -15,12 +15,10 @@ from itertools import combinations
 
 from foon_asp.model.node import ObjectNode, State
 from foon_asp.model.spelling import misspellings
+from foon_asp.numbers import LEAST_LIKENESS
 
 Likeness = Callable[[str, str], float]
 """How alike two labels are in meaning, from 0 to 1; it is symmetric."""
-
-LEAST_LIKENESS = 0.8
-"""How alike two labels are at least that are taken for one, where nobody says it."""
 
 _APART = re.compile(r"[\s_-]+")
 

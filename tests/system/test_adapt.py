@@ -11,6 +11,7 @@ import foon_asp as fa
 from support.cli import check_same_bytes, run
 from support.schemas import output
 
+SCHEMA = "adapt.schema.json"
 SWAP = fa.Replacement("banana", "mango", 0.8, "ripe and soft")
 SAME = fa.Replacement("milk", "oat milk", 0.9)
 
