@@ -145,6 +145,7 @@ _BESIDE = (
     "retrieval/pareto.lp",
     "retrieval/suggest.lp",
     "retrieval/substitute.lp",
+    "retrieval/adapt.lp",
 )
 """Encodings that the rules may be run with."""
 

@@ -288,7 +288,9 @@ class Space:
         for number in sorted(lacking):
             if self._may_be_brought(number):
                 named = sorted(set(world.node(number).named_labels) - world.kitchen.utensils)
-                yield " ".join([f"raw({number}).", *(f"names({number},{quote(each)})." for each in named)])
+                yield " ".join(
+                    [f"obtainable({number}).", *(f"names({number},{quote(each)})." for each in named)]
+                )
         for label in sorted(labels):
             for by, row in self._companions(label).items():
                 yield f"near({quote(label)},{quote(by)},{row.cost})."

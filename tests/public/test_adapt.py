@@ -36,9 +36,8 @@ def test_a_salad_with_mango_and_without_tomato(universal_world: World) -> None:
 
 def test_categories_of_annotated_files(public_data: Path) -> None:
     """15 is salads: each of the four is marked in a file of its own."""
-    files = sorted((public_data / "subgraphs").glob("*sal[ae]*.txt")) + [
-        public_data / "subgraphs" / "0033-miso_soup.txt"
-    ]
+    folder = public_data / "subgraphs"
+    files = [*sorted(folder.glob("*sal[ae]*.txt")), folder / "0033-miso_soup.txt"]
     world = fa.load(foon=files, kitchen=public_data / "universal" / "kitchen.json")
     assert sorted(each.dish.label for each in world.adapt("15").candidates) == [
         "carrot salad",

@@ -138,6 +138,21 @@ def test_python_says_the_same_as_the_command(capsys: pytest.CaptureFixture[str],
     check_same_bytes(["adapt", *flags], tmp_path)
 
 
+def test_rules_of_the_users_own_hold_beside_likeness(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    rule = tmp_path / "rule.lp"
+    rule.write_text('criterion("peeling",9). penalty("peeling",U,3) :- use(U), motion(U,"peel").')
+    flags = ("smoothie", "--without", "banana", "--objective", str(rule))
+    value = output(capsys, "adapt", *flags)
+    # Nothing is left of the banana to be peeled, and how far that is from what was asked is no rule of theirs.
+    assert (value["distance"], value["answer"]["own"]) == (1.001, {"9": 0})
+    rule.write_text("near(U,1,1) :- use(U).")
+    status, _, err = run(capsys, "adapt", "smoothie", "--constraint", rule)
+    assert status == 2
+    assert "near/3" in err
+
+
 def test_a_limit_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     """Without any time there is a first tree, or none; nothing is proven, and each dish is told."""
     value = output(capsys, "adapt", "salad", "--with", "potato", "--time-limit", "0", status=3)

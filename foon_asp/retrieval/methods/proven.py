@@ -99,6 +99,8 @@ def own_payments(answer: Model, control: Solver) -> Payments:
     clingo leaves out a priority at which nothing can ever be paid.
     """
     paid = dict(zip(answer.priorities, answer.costs, strict=True))
-    (standing,) = control.derived([("standing", 2)])
-    own = {int(str(priority)) for name, priority in standing if name not in CRITERIA}
+    standing, foremost = control.derived([("standing", 2), ("foremost", 1)])
+    # What comes before all else is ours, too.
+    ours = {*CRITERIA, *(name for (name,) in foremost)}
+    own = {int(str(priority)) for name, priority in standing if name not in ours}
     return {priority: paid.get(priority, 0) for priority in sorted(own, reverse=True)}
