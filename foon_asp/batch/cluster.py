@@ -89,11 +89,21 @@ def answer_on_cluster(
         except FoonError:
             raise
         except Exception as error:
-            if client.status == "running":
+            if _is_there(client):
                 raise
             raise _lost(address) from error
         finally:
             data.remove()
+
+
+def _is_there(client: Client) -> bool:
+    """Tell whether the scheduler is; a client may notice that it is gone only after a call has failed."""
+    latest = time.monotonic() + _CONNECT
+    while client.status == "running":
+        if time.monotonic() > latest:
+            return True
+        time.sleep(_MOMENT)
+    return False
 
 
 @contextmanager
