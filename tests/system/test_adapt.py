@@ -145,7 +145,7 @@ def test_rules_of_the_users_own_hold_beside_likeness(
     rule.write_text('criterion("peeling",9). penalty("peeling",U,3) :- use(U), motion(U,"peel").')
     flags = ("smoothie", "--without", "banana", "--objective", str(rule))
     value = output(capsys, "adapt", *flags)
-    # Nothing is left of the banana to be peeled, and how far that is from what was asked is no rule of theirs.
+    # Nothing is left of the banana to be peeled, and how far that is from what was asked is no rule here.
     assert (value["distance"], value["answer"]["own"]) == (1.001, {"9": 0})
     rule.write_text("near(U,1,1) :- use(U).")
     status, _, err = run(capsys, "adapt", "smoothie", "--constraint", rule)
