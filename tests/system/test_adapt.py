@@ -142,7 +142,8 @@ def test_rules_of_the_users_own_hold_beside_likeness(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     rule = tmp_path / "rule.lp"
-    rule.write_text('criterion("peeling",9). penalty("peeling",U,3) :- use(U), motion(U,"peel").')
+    text = 'criterion("peeling",9). penalty("peeling",U,3) :- use(U), motion(U,"peel").'
+    rule.write_text(text, encoding="utf-8")
     flags = ("smoothie", "--without", "banana", "--objective", str(rule))
     value = output(capsys, "adapt", *flags)
     # Nothing is left of the banana to be peeled, and how far that is from what was asked is no rule here.
