@@ -155,6 +155,11 @@ def goal(parser: Parser, nargs: str | None = None, note: str = "") -> None:
     parser.add_argument("goal", nargs=nargs, metavar="GOAL", help=_GOAL + note)
 
 
+def named_goal(parser: Parser, what: str) -> None:
+    """Add a goal as an option, for commands whose arguments are something else; `what` it is there for."""
+    parser.add_argument("--goal", action="append", default=[], metavar="GOAL", help=f"a goal; {what}")
+
+
 def goals_file(parser: Parser) -> None:
     """Add a file of goals."""
     parser.add_argument("--goals", metavar="FILE", help="goals: JSON, FOON text, or labels")

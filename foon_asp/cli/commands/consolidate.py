@@ -33,9 +33,7 @@ _MODELS: dict[str, Aspect] = {"states": "state", "locations": "location", "motio
 def configure(parser: Parser) -> None:
     """Add the options."""
     parser.add_argument("trees", nargs="+", metavar="TREE", help="files of task trees; - is standard input")
-    parser.add_argument(
-        "--goal", metavar="GOAL", help="what the tree is for (default: what most trees are for)"
-    )
+    add.named_goal(parser, "what the tree is for (default: what most trees are for)")
     add.criteria(parser, "; default: cost if costs are named, else units")
     group = parser.add_argument_group("models")
     add.costs(group)
@@ -72,7 +70,6 @@ def run(options: argparse.Namespace) -> Reply:
         check_targets(options, target)
         # Told before anything is worked out.
         choose_format(FoonBuilder().build(), target, None)
-    goals = () if options.goal is None else (options.goal,)
     trees = open_trees(options, FoonBuilder().build())
     kitchen, odd = KitchenFiles(
         options.kitchen,
@@ -85,7 +82,7 @@ def run(options: argparse.Namespace) -> Reply:
     ).read(trees.foon)
     warn_of_findings(options, odd, [options.kitchen or ""])
     asked = ConsolidateQuery(
-        question(options, *goals),
+        question(options, *options.goal),
         kitchen,
         {
             about: read_orders(Path(path))

@@ -21,12 +21,8 @@ _DEFAULT = "explorer.html"
 def configure(parser: Parser) -> None:
     """Add the options."""
     add.world(parser)
-    parser.add_argument(
-        "--goal",
-        action="append",
-        default=[],
-        metavar="GOAL",
-        help="only the units that can matter for it, where a FOON is too large for a page; may be repeated",
+    add.named_goal(
+        parser, "several leave only the units that can matter for any, where a FOON is too large for a page"
     )
     parser.add_argument("--open", action="store_true", help="open the page in the browser")
     add.files(parser, "PAGE", f"a file of HTML; - is standard output (default: {_DEFAULT})", default=_DEFAULT)
