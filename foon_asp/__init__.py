@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from foon_asp.model.foon import Foon, merge
     from foon_asp.model.kitchen import Kitchen
     from foon_asp.model.node import FunctionalUnit, ObjectNode, State
+    from foon_asp.planning.resources import Resources, Station, Worker
+    from foon_asp.planning.schedule import Schedule
+    from foon_asp.planning.schedule_answer import ScheduleAnswer
     from foon_asp.query.constraints import Constraints
     from foon_asp.query.method import Method
     from foon_asp.query.objective import Costs, Objective
@@ -43,6 +46,9 @@ _HOMES = {
     "model.foon": ("Foon", "merge"),
     "model.kitchen": ("Kitchen",),
     "model.node": ("FunctionalUnit", "ObjectNode", "State"),
+    "planning.resources": ("Resources", "Station", "Worker"),
+    "planning.schedule": ("Schedule",),
+    "planning.schedule_answer": ("ScheduleAnswer",),
     "query.constraints": ("Constraints",),
     "query.method": ("Method",),
     "query.objective": ("Costs", "Objective"),
@@ -88,11 +94,16 @@ __all__ = [
     "Query",
     "QueryError",
     "Replacement",
+    "Resources",
+    "Schedule",
+    "ScheduleAnswer",
     "State",
+    "Station",
     "Status",
     "Step",
     "Suggestions",
     "TaskTree",
+    "Worker",
     "World",
     "check",
     "consolidate",

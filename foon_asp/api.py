@@ -63,6 +63,9 @@ from foon_asp.words import shortened
 if TYPE_CHECKING:
     from foon_asp.draw.formats import Drawing
     from foon_asp.planning.answer import PlanAnswer
+    from foon_asp.planning.resources import Resources
+    from foon_asp.planning.schedule import Schedule
+    from foon_asp.planning.schedule_answer import ScheduleAnswer
 
 Asked = Query | Named
 """A question; a goal alone, as a text or an object node, asks for its best tree."""
@@ -232,6 +235,48 @@ class World:
         """
         return adapt_dish(self._world, query, wanted)
 
+    def schedule(
+        self,
+        goals: Asked | Iterable[Named],
+        *,
+        hands: int | None = None,
+        resources: Resources | str | Path | None = None,
+        have: Mapping[str, int] | None = None,
+        passive: Iterable[str] = (),
+        durations: Mapping[str, float] | str | Path | None = None,
+        semantics: str = "consume",
+        front: bool = False,
+        known: Schedule | None = None,
+    ) -> ScheduleAnswer:
+        """Return the shortest schedule for goals: which steps are done when, by whom, and with what.
+
+        `resources` (or the file that says them) are workers, stations and utensils; `hands` are those of the
+        only worker, `have={"bowl": 2}` counts utensils and stations, `passive` motions go by themselves.
+        `durations` are seconds by motion, where no video says them. `front=True` adds longer schedules that
+        are better by the criterion of the query. What is answered is no longer than the `known` schedule, of
+        the same goals with fewer resources. Raises `QueryError`, and `InputError` for a file that cannot be
+        read.
+        """
+        # As of `plan`.
+        from foon_asp.io.motions import read_durations
+        from foon_asp.planning.resource_file import read_resources
+        from foon_asp.planning.resources import Resources
+        from foon_asp.planning.schedule_query import ScheduleQuery
+        from foon_asp.planning.scheduler import schedule
+
+        query = goals if isinstance(goals, Query) else Query(*_several(goals))
+        if isinstance(resources, str | Path):
+            resources = read_resources(Path(resources))
+        found = Resources() if resources is None else resources
+        if hands is not None:
+            found = found.with_hands(_how_many(hands, "hands"))
+        found = found.with_passive(a_list(passive, "passive", "motions"))
+        found = found.with_counts(self._world, (have or {}).items())
+        if isinstance(durations, str | Path):
+            durations = read_durations(Path(durations))
+        asked = ScheduleQuery(query, found, semantics, durations or {}, front)
+        return schedule(self._world, asked, known)
+
     def explain(self, query: Asked, *, most: int = 1) -> Explanation:
         """Say why there is no task tree and what is missing, `most` smallest sets; or what steps are for."""
         return explain(self._world, query, most=_how_many(most, "most"))
@@ -308,6 +353,11 @@ def _seen(foon: Foon | Dataset | ModelWorld, kitchen: Kitchen | Iterable[Named])
 def _how_many(value: int, name: str = "count") -> int:
     """Return how many are asked for; raise `QueryError` if that is no whole number from 1."""
     return int(SOME.checked(value, name))
+
+
+def _several(goals: Asked | Iterable[Named]) -> list[Named]:
+    """Return one goal, or several, as a list."""
+    return [goals] if isinstance(goals, str | ObjectNode) else a_list(goals, "goals", "objects")
 
 
 def _node(named: Named) -> ObjectNode:

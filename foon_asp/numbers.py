@@ -82,3 +82,7 @@ MEGABYTES = Number("a number of megabytes above 0 and at most 1000000000", 0, 1_
 """How much memory an answer may take."""
 FACTOR = Number("a number of at least 1 and at most 1000000", 1, 1_000_000)
 """How much dearer than the best a tree may be."""
+SPEED = Number("a number above 0 and at most 1000", 0, 1000, above=True)
+"""How much faster than the videos somebody works."""
+DURATION = Number("a number of seconds above 0 and at most 1000000", 0, 1_000_000, above=True)
+"""How long a motion takes."""

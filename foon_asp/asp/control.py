@@ -27,13 +27,16 @@ Progress = Callable[[Model], None]
 class Program:
     """What clingo is given: the texts of a program, values of constants, and options.
 
-    If it is `ground` already, its only text is in aspif, and clingo is not to ground it again.
+    If it is `ground` already, its only text is in aspif, and clingo is not to ground it again. With `timed`
+    its texts may have difference constraints, `&diff { x-y } <= d`, and models say `dl(x,value)` of each
+    variable.
     """
 
     texts: tuple[str, ...]
     constants: Mapping[str, str | int]
     options: tuple[str, ...] = ()
     ground: bool = False
+    timed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,14 +73,29 @@ class Control:
         for name, value in sorted(program.constants.items()):
             arguments += ["-c", f"{name}={value}"]
         self._control = clingo.Control(arguments, self._log)
+        self._theory = _difference_logic() if program.timed else None
         with self._complaints():
+            if self._theory is not None:
+                self._theory.register(self._control)
             for text in program.texts:
-                self._control.add("base", [], text)
+                self._add(text)
         if not program.ground:
             self.ground("base")
 
     def _log(self, _: clingo.MessageCode, message: str) -> None:
         self._messages.append(message.strip())
+
+    def _add(self, text: str) -> None:
+        """Add a text; one with difference constraints goes through the theory, which rewrites them."""
+        theory = self._theory
+        if theory is None or "&diff" not in text:
+            self._control.add("base", [], text)
+            return
+        # It takes a while to load, and most questions need none of it.
+        from clingo.ast import ProgramBuilder, parse_string
+
+        with ProgramBuilder(self._control) as builder:
+            parse_string(text, lambda each: theory.rewrite_ast(each, builder.add), logger=self._log)
 
     def ground(self, part: str, *numbers: int) -> None:
         """Ground a part of the program with integer parameters."""
@@ -125,6 +143,8 @@ class Control:
         found: list[_Seen] = []
 
         def on_model(model: clingo.Model) -> None:
+            if self._theory is not None:
+                self._theory.on_model(model)
             # Most models are not the last one: what they say is read when that is known.
             found[:] = [_Seen.of(model)]
             if progress is not None:
@@ -137,6 +157,17 @@ class Control:
         proven = proven or not found[0].costs
         bounds = found[0].costs if proven else self._lower_bounds()
         return replace(found[0].model(), proven=proven, bounds=bounds, limit=None if proven else limit)
+
+    def possible(self) -> Model:
+        """Return what some model shows, all such atoms together; `proven` says that these are all.
+
+        A program that minimises something is not asked this.
+        """
+        configuration: Any = self._control.configuration
+        configuration.solve.enum_mode, configuration.solve.models = "brave", 0
+        answer = self.best()
+        configuration.solve.enum_mode, configuration.solve.models = "auto", -1
+        return replace(answer, proven=answer.limit is None)
 
     def all_best(self, distinct: str, most: int | None = None) -> Models:
         """Return all best models, each set of atoms of the predicate `distinct` once, in their order.
@@ -213,6 +244,8 @@ class Control:
         limit = limits.reached()
         if limit is not None:
             return False, limit
+        if self._theory is not None:
+            self._theory.prepare(self._control)
         if not limits.may_end_early():
             # A thread of its own costs a fifth of a small question.
             return bool(self._control.solve(on_model=on_model).exhausted), None
@@ -242,11 +275,20 @@ class _Seen:
 
     @classmethod
     def of(cls, model: clingo.Model) -> _Seen:
-        return cls(model.symbols(shown=True), tuple(model.cost), tuple(model.priority))
+        return cls(model.symbols(shown=True, theory=True), tuple(model.cost), tuple(model.priority))
 
     def model(self) -> Model:
         """Return it as plain values, of which nothing is proven."""
         return Model(_atoms(self.shown), False, (), self.costs, self.priorities)
+
+
+def _difference_logic() -> Any:
+    """Return the theory of difference constraints, of clingo-dl."""
+    # It is loaded for schedules alone.
+    from clingodl import ClingoDLTheory
+
+    theory: Any = ClingoDLTheory
+    return theory()
 
 
 def _answer(model: clingo.Model, *, proven: bool) -> Model:

@@ -42,13 +42,14 @@ def _read(stream: BinaryIO, size: int) -> bytes:
 
 def packed_program(program: Program) -> list[Any]:
     """Return a program as a message has it."""
-    return [list(program.texts), dict(program.constants), list(program.options), program.ground]
+    texts, options = list(program.texts), list(program.options)
+    return [texts, dict(program.constants), options, program.ground, program.timed]
 
 
 def program(value: list[Any]) -> Program:
     """Return the program of a message."""
-    texts, constants, options, ground = value
-    return Program(tuple(texts), constants, tuple(options), ground)
+    texts, constants, options, ground, timed = value
+    return Program(tuple(texts), constants, tuple(options), ground, timed)
 
 
 def packed(value: Model | Models | Look | tuple[Any, ...] | None) -> Any:

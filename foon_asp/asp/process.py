@@ -83,6 +83,10 @@ class ProcessControl:
         """Return the best model, or the best until a limit."""
         return self._model("best")
 
+    def possible(self) -> Model:
+        """Return what some model shows, all such atoms together; `proven` says that these are all."""
+        return self._model("possible")
+
     def all_best(self, distinct: str, most: int | None = None) -> Models:
         """Return all best models, as `Control.all_best` does; at a limit of memory none."""
         try:

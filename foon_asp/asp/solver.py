@@ -28,15 +28,17 @@ def open_solver(
     options: Sequence[str] = (),
     *,
     guarded: bool = False,
+    timed: bool = False,
 ) -> Solver:
-    """Ground encodings with some facts.
+    """Ground encodings with some facts; `timed` ones have difference constraints.
 
     It is done in a process of its own where it could break a limit, and if it is `guarded`: with rules of the
     user's own, which may crash clingo; these get `limits.careful_memory`. Raises `ProgramError`, and
     `LimitReachedError`.
     """
     texts = (*map(encoding_text, encoding_files(encodings)), facts)
-    return open_program(Program(texts, constants or {}, tuple(options)), guarded=guarded)
+    program = Program(texts, constants or {}, tuple(options), timed=timed)
+    return open_program(program, guarded=guarded)
 
 
 def open_program(program: Program, *, guarded: bool = False) -> Solver:
@@ -56,5 +58,8 @@ def _large(program: Program) -> bool:
         return len(program.texts[-1]) > 10 * _LARGE
     rounds = program.constants.get("horizon", 1)
     assert isinstance(rounds, int)
+    if program.timed:
+        # Any two steps may be in each other's way.
+        return len(program.texts[-1]) > _LARGE / 20
     # Facts are grounded once, and what is counted by rounds once a round.
     return len(program.texts[-1]) * max(1, rounds // 10) > _LARGE

@@ -38,6 +38,7 @@ _FILES = (
         "objective",
     ),
     *("file", "plan", "names", "queries", "trees", "states", "locations", "motions"),
+    *("resources", "durations"),
 )
 """The options that name files to read."""
 

@@ -68,6 +68,14 @@ def labels(text: str) -> list[str]:
     return found
 
 
+def counted_label(text: str) -> tuple[str, int]:
+    """Read a label with how many there are, `bowl=3`."""
+    label, mark, count = text.rpartition("=")
+    if not mark or not label.strip():
+        raise argparse.ArgumentTypeError(f"expected LABEL=N, as in bowl=3, not {said(text)}")
+    return label.strip().lower(), positive(count)
+
+
 def world(parser: Parser, match_relations: Matching = "strict") -> None:
     """Add which FOON and which kitchen, and how they are read; relations match as said, by default."""
     group = parser.add_argument_group("data (default: the built-in kitchen)")

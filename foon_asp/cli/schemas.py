@@ -21,6 +21,7 @@ from foon_asp.audit.wire import AuditJson, StatisticsJson
 from foon_asp.io import atomic
 from foon_asp.io.object_wire import ObjectJson
 from foon_asp.io.wire import FEW, dumps
+from foon_asp.planning.schedule_wire import ResourcesJson, ScheduleAnswerJson
 from foon_asp.planning.wire import EngineJson, NamedPlanJson, PlanAnswerJson, PlanJson
 from foon_asp.query.wire import NodeJson, QueryJson
 from foon_asp.retrieval.adapt_wire import AdaptationJson
@@ -110,6 +111,7 @@ DECLARED = {
     "plan": Declared("foon-asp plan --format json", (PlanAnswerJson,)),
     "query": Declared("foon-asp query --format json", (AskedJson,), more=(FunctionJson,)),
     "reach": Declared("foon-asp reach --format json", (ReachJson,)),
+    "resources": Declared("foon-asp schedule --resources", (ResourcesJson,)),
     "retrieve": Declared(
         "foon-asp retrieve --format json",
         (
@@ -121,6 +123,7 @@ DECLARED = {
         "One answer for a goal on the command line; with --goals, a list of answers in the order of the "
         "file. With -n, --all-optimal, --diverse or --pareto each answer holds several trees.",
     ),
+    "schedule": Declared("foon-asp schedule --format json", (ScheduleAnswerJson,)),
     "stats": Declared("foon-asp stats --format json", (StatisticsJson,)),
     "suggest": Declared("foon-asp suggest --format json", (SuggestionsJson,)),
 }

@@ -10,7 +10,7 @@ from foon_asp.characters import is_label
 from foon_asp.errors import InputError
 from foon_asp.io.document import Document, is_json
 from foon_asp.io.files import read_string, rows
-from foon_asp.numbers import COST, RATE, Number
+from foon_asp.numbers import COST, DURATION, RATE, Number
 from foon_asp.values import said
 
 
@@ -28,6 +28,11 @@ def read_costs(path: Path) -> dict[str, float]:
     Motions are in lower case; one that is named twice must cost the same.
     """
     return _read(path, "cost", COST, "costs are from 0 to 1000000")
+
+
+def read_durations(path: Path) -> dict[str, float]:
+    """Read how many seconds motions take, written likewise; raise `InputError`."""
+    return _read(path, "second", DURATION, "seconds are above 0 and at most 1000000")
 
 
 def _read(path: Path, name: str, kind: Number, which: str) -> dict[str, float]:

@@ -148,7 +148,7 @@ def plan_by_engine(
         _validate(target.problem, sequence)
         # VAL gives up on a task in which there is nothing to do.
         if names and (val := find_val()) is not None:
-            check_by_val(val, domain_text(written), problem_text(written), names)
+            check_by_val(val, domain_text(written), problem_text(written), (f"({name})" for name in names))
         exact = plan_cost(problem.world, criterion, plan.units)
         cost = None if exact == math.inf else exact
     seconds = time.perf_counter() - started
@@ -175,13 +175,13 @@ def find_val() -> str | None:
     return next(filter(None, (*map(shutil.which, ("Validate", "VAL")), *packaged)), None)
 
 
-def check_by_val(val: str, domain: str, problem: str, actions: Iterable[str]) -> None:
-    """Let VAL check a plan; raise `InternalError` if it does not accept it."""
+def check_by_val(val: str, domain: str, problem: str, lines: Iterable[str]) -> None:
+    """Let VAL check the lines of a plan file; raise `InternalError` if it does not accept them."""
     with TemporaryDirectory(prefix="foon-asp-") as name:
         folder = Path(name)
         (folder / "domain.pddl").write_text(domain, encoding="utf-8")
         (folder / "problem.pddl").write_text(problem, encoding="utf-8")
-        (folder / "plan").write_text("".join(f"({action})\n" for action in actions), encoding="utf-8")
+        (folder / "plan").write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
         done = subprocess.run(
             [val, "domain.pddl", "problem.pddl", "plan"],
             cwd=folder,

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import cached_property
 
 from foon_asp.model.consumption import Effects
 from foon_asp.model.node import ObjectId, UnitId
-from foon_asp.model.reachability import backward
+from foon_asp.model.reachability import backward, within
 from foon_asp.query.problem import Problem
 
 
@@ -16,9 +17,13 @@ class PlanProblem(Problem):
     That the kitchen holds an object which it counts does not make its makers superfluous: it can run out.
     """
 
-    def __init__(self, effects: Effects, goals: tuple[ObjectId, ...]) -> None:
+    def __init__(
+        self, effects: Effects, goals: tuple[ObjectId, ...], among: Collection[UnitId] | None = None
+    ) -> None:
+        """Ask for goals, with no other units than those that are named, if any are."""
         super().__init__(effects.world, goals)
         self.effects = effects
+        self._among = among
 
     @cached_property
     def units(self) -> list[UnitId]:
@@ -28,5 +33,8 @@ class PlanProblem(Problem):
         plan can do without them.
         """
         world, effects = self.world, self.effects
-        units = backward(world.units, self.goals, effects.endless, world.closure.executable)
+        allowed: Collection[UnitId] = world.closure.executable
+        if self._among is not None:
+            allowed = within(world.units, world.stock, self._among).executable
+        units = backward(world.units, self.goals, effects.endless, allowed)
         return [unit for unit in units if effects.makes_a_difference(unit)]

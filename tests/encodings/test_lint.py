@@ -15,6 +15,7 @@ from foon_asp.asp.facts import facts
 from foon_asp.model.node import ObjectId
 from foon_asp.query.problem import Problem
 from support.encoding_files import FILES, NAMES, Signature, heads, of_type, shown
+from support.models import load
 from support.small_foons import node, world
 
 DOCUMENTED = re.compile(r"^%\*! (\w+)\(([^)]*)\)$", re.MULTILINE)
@@ -170,8 +171,7 @@ def test_clingo_has_nothing_to_warn_of(name: str, full: bool) -> None:
     control = clingo.Control(
         ["--warn=all", "--warn=no-file-included"], lambda _, message: said.append(message)
     )
-    for each in ["retrieval/task_tree.lp", name] if name.startswith("criteria/") else [name]:
-        control.load(str(encoding_path(each)))
+    load(control, ["retrieval/task_tree.lp", name] if name.startswith("criteria/") else [name])
     if full:
         where = world(["onion + (knife) -cut-> soup"], "onion + (knife)")
         criterion = f'criterion("{Path(name).stem}",1).'

@@ -29,7 +29,7 @@ from foon_asp.query.objective import Criterion
 from foon_asp.query.problem import Problem
 from foon_asp.render.plan import plan_text
 from support import brute_force
-from support.plan_worlds import KITCHEN_UNITS, plan, with_quantities
+from support.plan_worlds import KITCHEN_UNITS, plan, recipes, with_quantities
 from support.small_foons import MOTIONS, RATES, domains, many, node, world
 
 # --- The definitions, written down once more --------------------------------------------------------
@@ -164,25 +164,6 @@ def fewest_then_cheapest(
                 following[place] = min(new, following.get(place, new))
         layer = following
         steps += 1
-
-
-def recipe(seed: int) -> World:
-    """Make a FOON in which things are shared and made again: most units need what others make."""
-    random = Random(seed)
-    things = [node(f"{random.choice('abc')}[s{number}]") for number in range(7)]
-    builder = FoonBuilder()
-    for thing in things:
-        builder.object(thing)
-    for place in range(2, 7):
-        for _ in range(random.choice([1, 1, 2])):
-            inputs = random.sample([ObjectId(number) for number in range(place)], random.choice([1, 2, 2]))
-            outputs = [ObjectId(place), *([random.choice(inputs)] if random.random() < 0.25 else [])]
-            builder.unit(random.choice(MOTIONS), inputs, outputs, Annotation())
-    rates = {motion: random.choice(RATES) for motion in MOTIONS}
-    return World.of(builder.build(), Kitchen(tuple(things[:2]), frozenset(), rates))
-
-
-recipes = st.integers(0, 10**6).map(recipe)
 
 
 @st.composite

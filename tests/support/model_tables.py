@@ -20,6 +20,20 @@ ORDERS = (
 
 CUT = ONION + "unit(7). input(7,(1;2;3)). output(7,(3;4)). "
 
+COOK = (
+    "unit(beat). unit(bake). unit(fry). object((egg;batter;cake;waffle)). kitchen(egg). "
+    "state((egg;batter;cake;waffle),s). input(beat,egg). output(beat,batter). input((bake;fry),batter). "
+    "output(bake,cake). output(fry,waffle). shortest((beat;bake;fry),2). head(beat,0). head((bake;fry),1). "
+    "tail(beat,1). tail((bake;fry),0). window(0,0). "
+)
+"""Batter is beaten of an egg, and baked or fried; each takes a second."""
+
+TWICE = (
+    "goal(cake). goal(waffle). worker(cook,1). able((beat;bake;fry),cook,1,1). most((beat;bake;fry),2). "
+    "quickest((beat;bake;fry),1). "
+)
+"""One cook, with one hand, is to make both."""
+
 READINGS = (
     Case("vocabulary.lp", "it derives nothing", CUT, "needs/2 makes/2 unit/1", ("unit(7)",)),
     Case(
@@ -715,6 +729,57 @@ OTHERS = (
         recipes="one: a -> b; two: a -> c; three: c -> d",
         parts=(("step", 1), ("step", 2), ("check", 2), ("cheapest", 2)),
         on="last(2)",
+    ),
+    Case(
+        "planning/occurrences.lp",
+        "one hand has no time for both ways, and batter that is used up twice is made twice",
+        COOK + "worker(cook,1). able((beat;bake;fry),cook,1,1). most((beat;bake;fry),2). ",
+        "do/2",
+        ("", "do(bake,1) do(beat,1)", "do(beat,1)", "do(beat,1) do(beat,2)", "do(beat,1) do(fry,1)"),
+        constants="bound=2 semantics=consume",
+    ),
+    Case(
+        "planning/work.lp",
+        "batter for both is made twice, though it could be there for both at once",
+        COOK + TWICE,
+        "do/2",
+        ("do(bake,1) do(beat,1) do(beat,2) do(fry,1)",),
+        constants="bound=4 semantics=consume",
+    ),
+    Case(
+        "planning/work.lp",
+        "there is too much to do for one hand",
+        COOK + TWICE,
+        "do/2",
+        (),
+        constants="bound=3 semantics=consume",
+    ),
+    Case(
+        "planning/schedule.lp",
+        "batter is made for one cake and then for the other, by one hand",
+        COOK + TWICE,
+        "do/2 by/3",
+        (
+            "by(bake,1,cook) by(beat,1,cook) by(beat,2,cook) by(fry,1,cook) "
+            "do(bake,1) do(beat,1) do(beat,2) do(fry,1)",
+        ),
+        constants="bound=4 semantics=consume",
+    ),
+    Case(
+        "planning/schedule.lp",
+        "two hands could do the work in 3, but batter is not there twice at once",
+        COOK + TWICE.replace("worker(cook,1)", "worker(cook,2)"),
+        "do/2",
+        (),
+        constants="bound=2 semantics=consume",
+    ),
+    Case(
+        "planning/schedule.lp",
+        "with one hand both are done at the one station, one after the other",
+        COOK + TWICE + "at((bake;fry),stove). station(stove,1).",
+        "stands/3",
+        ("stands((bake,1),stove,1) stands((fry,1),stove,1)",),
+        constants="bound=4 semantics=consume",
     ),
     Case(
         "audit/audit.lp",

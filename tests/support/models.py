@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import clingo
+from clingo.ast import ProgramBuilder, parse_files
+from clingodl import ClingoDLTheory
 
 from foon_asp.asp.encodings import encoding_path
 
@@ -45,12 +48,22 @@ def recipe_facts(recipes: str) -> str:
     return " ".join(facts)
 
 
+def load(control: clingo.Control, names: Iterable[str]) -> Any:
+    """Load encodings, some of which may have difference constraints; return the theory of these."""
+    unknown: Any = ClingoDLTheory
+    theory = unknown()
+    theory.register(control)
+    with ProgramBuilder(control) as builder:
+        for name in names:
+            parse_files([str(encoding_path(name))], lambda each: theory.rewrite_ast(each, builder.add))
+    return theory
+
+
 def models(case: Case) -> list[str]:
     """Return the models of a case, each once, sorted."""
     constants = [f"-c{constant}" for constant in case.constants.split()]
     control = clingo.Control(["--warn=no-file-included", *constants])
-    for each in (case.encoding, *case.beside):
-        control.load(str(encoding_path(each)))
+    theory = load(control, (case.encoding, *case.beside))
     control.add("base", [], recipe_facts(case.recipes) + " " + case.facts)
     control.ground([("base", [])])
     for part, number in case.parts:
@@ -59,6 +72,7 @@ def models(case: Case) -> list[str]:
         control.assign_external(clingo.parse_term(case.on), True)
     configuration: Any = control.configuration
     configuration.solve.models, configuration.solve.opt_mode = 0, "optN"
+    theory.prepare(control)
     asked = {(name, int(arity)) for name, arity in (each.split("/") for each in case.asked.split())}
     found: set[str] = set()
     with control.solve(yield_=True) as handle:

@@ -147,7 +147,7 @@ def test_a_flag_means_the_same_in_every_command(capsys: pytest.CaptureFixture[st
             meanings.setdefault(flag, {}).setdefault(meaning, []).append(command)
     capsys.readouterr()
     assert {flag: found for flag, found in meanings.items() if len(found) > 1} == {}
-    assert len(meanings["--quiet"].popitem()[1]) == len(meanings["--overwrite"].popitem()[1]) == 24
+    assert len(meanings["--quiet"].popitem()[1]) == len(meanings["--overwrite"].popitem()[1]) == 25
 
 
 @pytest.fixture

@@ -147,7 +147,7 @@ def test_val_accepts_plans_and_refuses_others() -> None:
     where = world(["egg -boil-> egg[hot]", "egg[hot] -peel-> dish"], "egg")
     task = planning_task(Problem.of(where, [node("dish")]), Effects(where, "consume"))
     written = document(task)
-    actions = [step.name for step in task.steps if step.unit is not None]
+    actions = [f"({step.name})" for step in task.steps if step.unit is not None]
     check_by_val(val, domain_text(written), problem_text(written), actions)
     with pytest.raises(InternalError, match="VAL does not accept"):
         check_by_val(val, domain_text(written), problem_text(written), actions[::-1])

@@ -28,6 +28,7 @@ COMMANDS = {
         "write a page in which a browser searches, plans and draws",
         "Write a page with the FOON, the kitchen and the solver, which a browser needs nothing else for.",
     ),
+    "schedule": _command("schedule", "say who does what when, in the least time"),
     "engines": _command("engines", "list planning engines", "List planning engines and how to install them."),
     "pddl": _command("pddl", "write PDDL, read plans", "Write PDDL, and read plans that were made from it."),
     "facts": _command("facts", "print the facts that clingo is given"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -109,9 +109,15 @@ def exported_units(problem: Problem, effects: Effects) -> list[UnitId]:
     return [unit for unit in units if effects.makes_a_difference(unit)]
 
 
-def planning_task(problem: Problem, effects: Effects, criterion: Criterion | None = None) -> Task:
+def planning_task(
+    problem: Problem,
+    effects: Effects,
+    criterion: Criterion | None = None,
+    seconds: Mapping[UnitId, int] | None = None,
+) -> Task:
     """Spell a problem out as ground steps, with costs if a criterion is given.
 
+    `seconds`: how long units take; if that is not given, as long as their videos, or 1.
     Raises `QueryError` for criteria that are no sum over steps, and for constraints: PDDL has no place for
     them.
     """
@@ -119,11 +125,18 @@ def planning_task(problem: Problem, effects: Effects, criterion: Criterion | Non
         raise QueryError("PDDL has no place for constraints on a task tree; export without them")
     if effects.world is not problem.world:
         raise InternalError("the effects are those of another domain")
-    return _Builder(problem, effects, criterion).task()
+    return _Builder(problem, effects, criterion, seconds or {}).task()
 
 
 class _Builder:
-    def __init__(self, problem: Problem, effects: Effects, criterion: Criterion | None) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        effects: Effects,
+        criterion: Criterion | None,
+        seconds: Mapping[UnitId, int],
+    ) -> None:
+        self.seconds = seconds
         self.problem = problem
         self.world = problem.world
         self.effects = effects
@@ -295,7 +308,7 @@ class _Builder:
             tuple(adds),
             tuple(deletes),
             self._cost(cost),
-            listed.duration or UNKNOWN_DURATION,
+            self.seconds.get(unit) or listed.duration or UNKNOWN_DURATION,
         )
 
 

@@ -15,6 +15,7 @@ from foon_asp.model.node import ObjectId
 from foon_asp.planning.pddl.names import Names
 from foon_asp.planning.pddl.styles import Atom, Document
 from foon_asp.planning.pddl.task import Fact, Step, all_steps, step_orderings
+from foon_asp.planning.pddl.timed import TimedPlan
 from foon_asp.planning.plan import Plan
 
 if TYPE_CHECKING:
@@ -150,6 +151,19 @@ def to_sequential_plan(plan: Plan, target: Unified, effects: Effects) -> up_plan
 
     steps = all_steps(plan, target.document.task, effects)
     return SequentialPlan([target.instance(step) for step in steps], target.problem.environment)
+
+
+def to_time_triggered(plan: TimedPlan, target: Unified) -> up_plans.TimeTriggeredPlan:
+    """Return a schedule as unified_planning has it; the target is made of the document of the plan."""
+    from fractions import Fraction
+
+    from unified_planning.plans import TimeTriggeredPlan
+
+    timed = [
+        (Fraction(start), target.instance(action), Fraction(action.duration))
+        for action, start in zip(plan.actions, plan.starts, strict=True)
+    ]
+    return TimeTriggeredPlan(timed, target.problem.environment)
 
 
 def to_partial_order(plan: Plan, target: Unified, effects: Effects) -> up_plans.PartialOrderPlan:
