@@ -207,17 +207,20 @@ def schedule_facts(
     counts: Mapping[str, Iterable[tuple[str, int]]],
     bounds: Mapping[str, Mapping[UnitId, int]],
     windows: Iterable[tuple[int, int]] = (),
+    open_ended: Iterable[UnitId] = (),
 ) -> str:
     """Return who can do which unit, with how many hands, in which time; and which stations units take.
 
     `counts`: for `worker`, `station` and `vessel` names with how many there are. `bounds`: numbers of units,
     by the names of the predicates that say them. `windows`: from when, and until how long before the end.
+    `open_ended`: units that may be done more often than is said.
     """
     lines = [f"able({unit},{quote(name)},{hands},{seconds})." for unit, name, hands, seconds in able]
     lines += [f"at({unit},{quote(name)})." for unit, name in at]
     lines += [f"{kind}({quote(name)},{count})." for kind, each in counts.items() for name, count in each]
     lines += [f"{name}({unit},{value})." for name, values in bounds.items() for unit, value in values.items()]
     lines += [f"window({start},{rest})." for start, rest in windows]
+    lines += [f"open_ended({unit})." for unit in open_ended]
     return "\n".join(lines) + "\n"
 
 

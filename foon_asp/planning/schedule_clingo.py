@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from foon_asp.asp.facts import facts, price_facts, schedule_facts
 from foon_asp.asp.model import Model, Value
-from foon_asp.asp.solver import open_solver
+from foon_asp.asp.solver import Solver, open_solver
 from foon_asp.errors import InternalError
 from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.planning.critical import Critical
@@ -27,8 +27,8 @@ _OPTIONS = ("--configuration=frumpy",)
 NOBODY = "nobody"
 """Who does what goes by itself."""
 
-AGAIN = 60
-"""How often a unit is done at most; what would be done more often is not looked for."""
+AGAIN = 40
+"""How often a unit is done in a schedule at most; what is done more often is only counted as any number."""
 
 
 @dataclass(frozen=True)
@@ -94,18 +94,24 @@ class Task:
         )
 
     def often(self, makespan: int) -> dict[UnitId, int]:
-        """Return how often each unit can be done within a makespan, by the hands that there are."""
+        """Return how often each unit can be done within a makespan by the hands there are, or `AGAIN`."""
         if self.problem.effects.semantics == "add":
             # What is never used up need not be made twice.
             return dict.fromkeys(self.units, 1)
-        hands = sum(worker.hands for worker in self.resources.workers)
-        return {
+        return {unit: max(1, min(AGAIN, self._by_hands(unit, makespan))) for unit in self.units}
+
+    def open_ended(self, makespan: int) -> list[UnitId]:
+        """Return the units that can be done more often than that."""
+        if self.problem.effects.semantics == "add":
+            return []
+        return [unit for unit in self.units if self._by_hands(unit, makespan) > AGAIN]
+
+    def _by_hands(self, unit: UnitId, makespan: int) -> int:
+        if any(needed == 0 for _, needed, _ in self.able[unit]):
             # What goes by itself can go any number of times at once.
-            unit: AGAIN
-            if any(needed == 0 for _, needed, _ in self.able[unit])
-            else max(1, min(AGAIN, hands * makespan // self.critical.quickest[unit]))
-            for unit in self.units
-        }
+            return AGAIN + 1
+        hands = sum(worker.hands for worker in self.resources.workers)
+        return hands * makespan // self.critical.quickest[unit]
 
     @cached_property
     def _common(self) -> str:
@@ -140,15 +146,19 @@ class Task:
         effects = self.problem.effects
         return {"semantics": effects.semantics, "strict": int(effects.world.strict), **more}
 
-    def less(self, bound: int, most: Mapping[UnitId, int]) -> Model:
+    def less(self, bound: int) -> Model:
         """Return how often units are done where hands are counted, but not when they are free."""
-        text, constants = self._asked(most), self._constants(bound=bound)
-        return open_solver(["planning/work.lp"], text, constants, timed=True).best()
+        return self._work(bound).best()
 
-    def possible(self, bound: int, most: Mapping[UnitId, int]) -> Model:
+    def possible(self, bound: int) -> Model:
         """Return all that may be done within a makespan, likewise."""
-        text, constants = self._asked(most), self._constants(bound=bound)
-        return open_solver(["planning/work.lp"], text, constants, timed=True).possible()
+        return self._work(bound).possible()
+
+    def _work(self, bound: int) -> Solver:
+        text = self._asked(self.often(bound)) + schedule_facts(
+            (), (), {}, {}, open_ended=self.open_ended(bound)
+        )
+        return open_solver(["planning/work.lp"], text, self._constants(bound=bound), timed=True)
 
     def within(
         self, bound: int, most: Mapping[UnitId, int], prices: Prices | None = None, budget: int | None = None

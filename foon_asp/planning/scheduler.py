@@ -206,7 +206,7 @@ class _Search:
         task, upper = self.task, self.upper
         target = self.lower
         while self.lower < upper:
-            model = self.tried(partial(task.less, target, task.often(target)), _PART)
+            model = self.tried(partial(task.less, target), _PART)
             if model.atoms is not None:
                 upper = target
                 self.work_listed(model)
@@ -238,7 +238,7 @@ class _Search:
         task = self.task
         most, proven = task.often(bound), task.exact
         if max(most.values(), default=0) > 1:
-            model = self.tried(partial(task.possible, bound, most), _PART)
+            model = self.tried(partial(task.possible, bound), _PART)
             if model.proven:
                 most = counts_of(model)
             proven = proven and model.proven and max(most.values(), default=0) < AGAIN
