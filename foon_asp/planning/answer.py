@@ -28,6 +28,8 @@ class PlanAnswer:
     plan costs by the criterion, a chance if that is success alone, None if it is infinite. `seconds` is wall
     time.
 
+    `span` is when the last step ends, in a plan of an engine that plans in time.
+
     clingo alone proves `steps` and `bound`: no plan takes fewer parallel steps, and a plan that there is
     takes no more; no plan of so many steps is cheaper, or likelier to succeed.
     """
@@ -42,6 +44,7 @@ class PlanAnswer:
     steps: int | None = None
     bound: float | None = None
     limit: Limit | None = None
+    span: float | None = None
 
     def __bool__(self) -> bool:
         return self.plan is not None

@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
+from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from foon_asp import limits
 from foon_asp.errors import InternalError, QueryError
 from foon_asp.planning.answer import PlanAnswer
+from foon_asp.planning.durations import durations
 from foon_asp.planning.pddl.styles import document
 from foon_asp.planning.pddl.task import planning_task
 from foon_asp.planning.pddl.unified import from_unified_plan, unified
@@ -50,6 +52,7 @@ class Engine:
 
     `module` is what shows that it is installed, `up_name` is what unified_planning calls it, made with
     `options`. `optimal` says that a plan of it is a cheapest one, though unified_planning may not know that.
+    `temporal`: it plans with durations, and steps of its plans overlap.
     """
 
     name: str
@@ -60,6 +63,7 @@ class Engine:
     up_name: str = ""
     options: tuple[tuple[str, str | tuple[str, ...]], ...] = ()
     optimal: bool = False
+    temporal: bool = False
 
     @property
     def installed(self) -> bool:
@@ -101,7 +105,20 @@ ENGINES = (
     Engine(
         "symk-opt", "up-symk", "GPL-3.0", "a cheapest plan, proven (symbolic search)", "up_symk", "symk-opt"
     ),
+    Engine("aries", "up-aries", "MIT", "a plan in time, short", "up_aries", "aries", temporal=True),
+    Engine(
+        "tamer",
+        "'foon-asp[tamer]'",
+        "free for educational use",
+        "a plan in time",
+        "up_tamer",
+        "tamer",
+        temporal=True,
+    ),
 )
+
+TEMPORAL = tuple(engine.name for engine in ENGINES if engine.temporal)
+"""The engines that plan in time."""
 
 
 def find_engine(name: str) -> Engine:
@@ -131,35 +148,58 @@ def plan_by_engine(
     """
     started = time.perf_counter()
     effects, criterion = problem.effects, asked.criterion
-    written = document(planning_task(problem, effects, criterion))
+    if engine.temporal:
+        # What is to be short is the time; how long things take is known as for schedules.
+        known = durations(problem.world, problem.units, {}).seconds
+        written = document(planning_task(problem, effects, seconds=known), durative=True)
+    else:
+        written = document(planning_task(problem, effects, criterion))
     target = unified(written)
     limits.check()
-    status, names, reason = _in_process(target.problem, engine, progress)
-    plan, cost = None, None
-    if names is not None:
-        from unified_planning.plans import ActionInstance, SequentialPlan
-
-        actions = [ActionInstance(target.problem.action(name)) for name in names]
-        sequence = SequentialPlan(actions, target.problem.environment)
-        plan = from_unified_plan(sequence, target.document.task.names, effects, problem.goals)
+    status, done, reason = _in_process(target.problem, engine, progress)
+    plan, cost, span = None, None, None
+    if done is not None:
+        found = _unified_plan(target.problem, done, engine)
+        plan = from_unified_plan(found, target.document.task.names, effects, problem.goals)
         if not plan.executable:
             lacking = ", ".join(map(str, plan.replay.missing))
             raise InternalError(f"the plan of {engine.name} fails its replay: {lacking} is missing")
-        _validate(target.problem, sequence)
+        _validate(target.problem, found, engine)
         # VAL gives up on a task in which there is nothing to do.
-        if names and (val := find_val()) is not None:
-            check_by_val(val, domain_text(written), problem_text(written), (f"({name})" for name in names))
+        if done and (val := find_val()) is not None:
+            check_by_val(val, domain_text(written), problem_text(written), _plan_lines(done, engine))
         exact = plan_cost(problem.world, criterion, plan.units)
         cost = None if exact == math.inf else exact
+        if engine.temporal:
+            span = max((float(start + seconds) for _, start, seconds in done), default=0.0)
     seconds = time.perf_counter() - started
-    return PlanAnswer(asked, effects, status, plan, cost, reason, seconds)
+    return PlanAnswer(asked, effects, status, plan, cost, reason, seconds, span=span)
 
 
-def _validate(problem: Any, plan: Any) -> None:
-    from unified_planning.engines import SequentialPlanValidator, ValidationResultStatus
+def _unified_plan(problem: Any, done: Iterable[Done], engine: Engine) -> Any:
+    """Return actions, with their times if the engine plans in time, as unified_planning has them."""
+    from unified_planning.plans import ActionInstance, SequentialPlan, TimeTriggeredPlan
 
+    actions = [(start, ActionInstance(problem.action(name)), seconds) for name, start, seconds in done]
+    if engine.temporal:
+        return TimeTriggeredPlan(actions, problem.environment)
+    return SequentialPlan([action for _, action, _ in actions], problem.environment)
+
+
+def _plan_lines(done: Iterable[Done], engine: Engine) -> list[str]:
+    """Return the lines of a plan file."""
+    if not engine.temporal:
+        return [f"({name})" for name, _, _ in done]
+    return [f"{float(start):.6f}: ({name}) [{float(seconds):.6f}]" for name, start, seconds in done]
+
+
+def _validate(problem: Any, plan: Any, engine: Engine) -> None:
+    from unified_planning.engines import ValidationResultStatus
+    from unified_planning.engines.plan_validator import SequentialPlanValidator, TimeTriggeredPlanValidator
+
+    validator = TimeTriggeredPlanValidator() if engine.temporal else SequentialPlanValidator()
     with _quiet():
-        result = SequentialPlanValidator().validate(problem, plan)
+        result = validator.validate(problem, plan)
     if result.status is not ValidationResultStatus.VALID:
         raise InternalError("unified_planning's validator does not accept a plan that replays")
 
@@ -194,8 +234,11 @@ def check_by_val(val: str, domain: str, problem: str, lines: Iterable[str]) -> N
         raise InternalError(f"VAL does not accept a plan that replays: {words}")
 
 
-Said = tuple[Status, "list[str] | None", str]
-"""Status, the names of the actions, and why there are none."""
+Done = tuple[str, Fraction, Fraction]
+"""An action by its name, when it starts and how long it takes; both are 0 where there are no times."""
+
+Said = tuple[Status, "list[Done] | None", str]
+"""Status, the actions, and why there are none."""
 
 
 def _in_process(problem: Any, engine: Engine, progress: Progress | None) -> Said:
@@ -269,7 +312,7 @@ def _solve(there: Connection, problem: Any, engine: Engine, folder: str) -> None
     except Exception as error:
         there.send((Status.FAILED, None, f"{type(error).__name__}: {' '.join(str(error).split())}"))
         return
-    names = None if result.plan is None else [each.action.name for each in result.plan.actions]
+    done = None if result.plan is None else _done(result.plan)
     status = statuses.get(result.status, Status.FAILED)
     if status is Status.SOLVED and engine.optimal:
         status = Status.OPTIMAL
@@ -278,7 +321,18 @@ def _solve(there: Connection, problem: Any, engine: Engine, folder: str) -> None
         reason = f"{engine.name} has proven that no plan exists"
     elif status in (Status.FAILED, Status.GAVE_UP):
         reason = _last_words(result)
-    there.send((status, names, reason))
+    there.send((status, done, reason))
+
+
+def _done(plan: Any) -> list[Done]:
+    """Return the actions of a plan, by their starts if it has times."""
+    timed = getattr(plan, "timed_actions", None)
+    if timed is None:
+        return [(each.action.name, Fraction(0), Fraction(0)) for each in plan.actions]
+    return sorted(
+        ((each.action.name, start, seconds or Fraction(0)) for start, each, seconds in timed),
+        key=lambda each: each[1],
+    )
 
 
 def _last_words(result: Any) -> str:

@@ -115,6 +115,9 @@ class PlanAnswerJson(JsonObject):
         ),
     ]
     plan: Annotated[PlanJson | None, means("The plan, replayed; null if there is none.")]
+    span: Annotated[
+        float | None, means("When the last step ends, in a plan of an engine that plans in time; else null.")
+    ]
     seconds: Annotated[Amount, means("Wall time, without reading the files.")]
     limit: LimitName
 
@@ -130,6 +133,7 @@ def plan_answer_json(answer: PlanAnswer) -> PlanAnswerJson:
         semantics=word(answer.semantics),
         cost=answer.cost,
         plan=None if answer.plan is None else plan_json(answer.plan),
+        span=answer.span,
         seconds=round(answer.seconds, 6),
         limit=answer.limit,
     )

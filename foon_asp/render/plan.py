@@ -32,6 +32,8 @@ def answer_text(answer: PlanAnswer) -> str:
         cost = "" if answer.by == "units" else f"{answer.by} {answer.cost:.4g}"
     proof = proof_text(answer.status, answer.limit)
     how += f", {proof}" if proof else ""
+    if answer.span is not None:
+        cost += f"{', ' * bool(cost)}makespan {answer.span:.6g}"
     return head + f"{costs_text(answer.plan, cost)} {how})\n\n" + plan_text(answer.plan, answer.effects)
 
 

@@ -19,6 +19,9 @@ from foon_asp.planning.pddl.write import domain_text, problem_text
 from foon_asp.planning.planner import plan
 from foon_asp.planning.problem import PlanProblem
 from foon_asp.planning.query import PlanQuery
+from foon_asp.planning.resources import Resources, Worker
+from foon_asp.planning.schedule_query import ScheduleQuery
+from foon_asp.planning.scheduler import schedule
 from foon_asp.query.problem import Problem
 from foon_asp.query.query import Query
 from support.cli import run, run_json
@@ -37,6 +40,24 @@ def test_plans_for_the_built_in_goals_are_found(built_in: Dataset, name: str, se
         assert theirs.plan.executable
         assert ours.plan is not None
         assert ours.plan.makespan <= theirs.plan.makespan
+
+
+def test_a_plan_in_time_is_judged_and_no_shorter_than_what_is_proven(
+    built_in: Dataset, capsys: pytest.CaptureFixture[str]
+) -> None:
+    where = built_in.world()
+    resources = Resources((Worker("cook", 100),))
+    for goal in built_in.goals[:3]:
+        theirs = plan(where, PlanQuery(Query(goal, time_limit=60), "aries"))
+        ours = schedule(where, ScheduleQuery(Query(goal), resources))
+        assert theirs.plan is not None
+        assert theirs.plan.executable
+        assert theirs.span is not None
+        assert ours.makespan is not None
+        assert ours.bound <= theirs.span
+    assert "makespan" in run(capsys, "plan", "ice", "--engine", "aries", "--durative")[1]
+    assert run(capsys, "plan", "ice", "--engine", "aries")[0] == 2
+    assert run(capsys, "plan", "ice", "--engine", "pyperplan", "--durative")[0] == 2
 
 
 def test_a_unit_may_come_again() -> None:

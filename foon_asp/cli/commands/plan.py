@@ -16,6 +16,7 @@ from foon_asp.cli.question import asked_goals
 from foon_asp.errors import QueryError
 from foon_asp.io.text import write_text
 from foon_asp.planning.answer import PlanAnswer
+from foon_asp.planning.engines import TEMPORAL
 from foon_asp.planning.pddl.ipc import ipc_text
 from foon_asp.planning.pddl.styles import STYLES
 from foon_asp.planning.plan import Plan
@@ -24,6 +25,7 @@ from foon_asp.planning.query import PlanQuery
 from foon_asp.planning.wire import plan_answer_json
 from foon_asp.query.query import Query
 from foon_asp.render.plan import answer_text
+from foon_asp.words import listed
 
 
 def configure(parser: Parser) -> None:
@@ -39,15 +41,20 @@ def configure(parser: Parser) -> None:
         "--max-steps", type=add.number, metavar="N", help="parallel steps that clingo tries at most"
     )
     add.limits(parser)
-    add.actions(parser, STYLES, ", for --format ipc")
+    add.actions(parser, STYLES, ", for --format ipc or an engine that plans in time")
     add.output(parser, "text", "json", "foon", "ipc")
 
 
 def run(options: argparse.Namespace) -> Reply:
     """Plan."""
-    for name in ("style", "durative"):
-        if getattr(options, name) and options.format != "ipc":
-            raise QueryError(f"--{name} is for --format ipc")
+    if options.style and options.format != "ipc":
+        raise QueryError("--style is for --format ipc")
+    if options.durative and options.format != "ipc" and options.engine not in TEMPORAL:
+        raise QueryError(
+            f"--durative is for --format ipc, or an engine that plans in time: {listed(TEMPORAL)}"
+        )
+    if options.engine in TEMPORAL and not options.durative:
+        raise QueryError(f"{options.engine} plans in time; add --durative")
     world = open_world(options)
     goals = asked_goals(options, world, "name a GOAL: foon-asp plan GOAL…")
     query = Query(*goals, by=options.by, time_limit=options.time_limit, memory_limit=options.memory_limit)
