@@ -270,7 +270,7 @@ class World:
         found = Resources() if resources is None else resources
         if hands is not None:
             found = found.with_hands(_how_many(hands, "hands"))
-        found = found.with_passive(a_list(passive, "passive", "motions"))
+        found = found.with_passive(self._world, a_list(passive, "passive", "motions"))
         found = found.with_counts(self._world, (have or {}).items())
         if isinstance(durations, str | Path):
             durations = read_durations(Path(durations))

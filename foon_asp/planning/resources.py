@@ -11,6 +11,7 @@ from foon_asp.model.node import FunctionalUnit, check_label
 from foon_asp.model.world import World
 from foon_asp.numbers import QUANTITY, SOME, SPEED
 from foon_asp.values import said
+from foon_asp.words import closest
 
 _MOST = 1000
 """How many hands, stations or utensils of one kind are told apart; more are as good as any number."""
@@ -115,8 +116,13 @@ class Resources:
             raise QueryError("--hands is for one worker; say the hands of each in the file of resources")
         return replace(self, workers=(replace(self.workers[0], hands=min(hands, _MOST)),))
 
-    def with_passive(self, motions: Iterable[str]) -> Resources:
-        """Return the same where some motions go by themselves, and take no hands."""
+    def with_passive(self, world: World, motions: Iterable[str]) -> Resources:
+        """Return the same where some motions go by themselves; raise `QueryError` if the FOON has not one."""
+        known = set(map(plain_motion, world.foon.motions))
+        motions = [motion.strip().lower() for motion in motions]
+        for motion in motions:
+            if motion not in known:
+                raise QueryError(f"no unit has the motion {said(motion)}{closest(motion, known)}")
         return replace(self, hands={**self.hands, **dict.fromkeys(motions, 0)})
 
     def with_counts(self, world: World, counts: Iterable[tuple[str, int]]) -> Resources:

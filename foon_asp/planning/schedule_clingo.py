@@ -10,8 +10,9 @@ from typing import TypeVar
 from foon_asp.asp.facts import facts, price_facts, schedule_facts
 from foon_asp.asp.model import Model, Value
 from foon_asp.asp.solver import Solver, open_solver
-from foon_asp.errors import InternalError
+from foon_asp.errors import InternalError, QueryError
 from foon_asp.model.node import ObjectId, UnitId
+from foon_asp.numbers import MOST
 from foon_asp.planning.critical import Critical
 from foon_asp.planning.durations import Durations
 from foon_asp.planning.prices import RUIN, Prices
@@ -41,9 +42,16 @@ class Task:
 
     @classmethod
     def of(cls, problem: PlanProblem, resources: Resources, durations: Durations) -> Task:
-        """Leave out of a problem what nobody can do, and all that is of no use then."""
+        """Leave out of a problem what nobody can do, and all that is of no use then.
+
+        Raises `QueryError` if it takes longer than clingo can count.
+        """
         able = cls(problem, resources, durations).able
-        return cls(PlanProblem(problem.effects, problem.goals, able.keys()), resources, durations)
+        task = cls(PlanProblem(problem.effects, problem.goals, able.keys()), resources, durations)
+        hands = max((worker.hands for worker in resources.workers), default=1)
+        if hands * task.longest(dict.fromkeys(task.units, AGAIN)) > MOST:
+            raise QueryError("so long durations, of so many units, cannot be added; give them in minutes")
+        return task
 
     @cached_property
     def able(self) -> dict[UnitId, list[tuple[str, int, int]]]:

@@ -27,6 +27,7 @@ NOT_RUN = {
     "docs/reliability.md": ["takes five minutes"],
     "docs/robots.md": ["PDDL, which tests look up in an export"],
     "docs/scale.md": ["takes Spark"],
+    "docs/scheduling.md": ["takes ten minutes and the public data"],
     "benchmarks/README.md": ["takes forty minutes", "takes a minute and the public data"],
 }
 """The blocks that are not run, and why."""

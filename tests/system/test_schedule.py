@@ -112,6 +112,11 @@ def test_what_is_known_is_never_made_longer() -> None:
     assert none.makespan <= one.makespan
 
 
+def test_times_that_cannot_be_counted_are_refused() -> None:
+    with pytest.raises(fa.QueryError, match="give them in minutes"):
+        fa.World(bread()).schedule("toast", hands=1000, durations={"bake": 1_000_000})
+
+
 def test_what_the_kitchen_counts_runs_out() -> None:
     units = (
         "egg -beat-> batter",

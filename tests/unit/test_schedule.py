@@ -119,6 +119,8 @@ class TestResources:
         assert found.stations == (Station("oven", 1, labels=frozenset({"oven"})),)
         with pytest.raises(QueryError, match="'spoon' is no utensil, no station and no label"):
             found.with_counts(where, [("spoon", 1)])
+        with pytest.raises(QueryError, match=r"no unit has the motion 'bakes'.*bake"):
+            found.with_passive(where, ["bakes"])
         with pytest.raises(QueryError, match="for one worker"):
             Resources((Worker("a"), Worker("b"))).with_hands(2)
 

@@ -10,6 +10,7 @@ from foon_asp.cli.inputs import open_world
 from foon_asp.cli.messages import tell
 from foon_asp.cli.output import Reply
 from foon_asp.cli.parser import Parser
+from foon_asp.cli.question import asked_goals
 from foon_asp.draw.gantt import gantt_svg
 from foon_asp.io.motions import read_durations
 from foon_asp.model.world import World
@@ -30,7 +31,7 @@ from foon_asp.render.schedule import schedule_text
 def configure(parser: Parser) -> None:
     """Add the options."""
     add.world(parser)
-    add.goal(parser, "+")
+    add.goal(parser, "*", add.OR_MARKED)
     group = parser.add_argument_group("resources (default: one cook with two hands, enough of all else)")
     group.add_argument("--resources", metavar="FILE", help="who works, stations, utensils: a JSON object")
     group.add_argument("--hands", type=add.positive, metavar="N", help="hands of the worker, if there is one")
@@ -64,9 +65,9 @@ def configure(parser: Parser) -> None:
 def run(options: argparse.Namespace) -> Reply:
     """Schedule."""
     world = open_world(options)
-    query = Query(
-        *options.goal, by=options.by or (), time_limit=options.time_limit, memory_limit=options.memory_limit
-    )
+    goals = asked_goals(options, world, "name a GOAL: foon-asp schedule GOAL…")
+    by = options.by or ()
+    query = Query(*goals, by=by, time_limit=options.time_limit, memory_limit=options.memory_limit)
     table = {} if options.durations is None else read_durations(Path(options.durations))
     asked = ScheduleQuery(query, _resources(options, world), options.semantics, table, options.front)
     answer = schedule(world, asked)
@@ -83,8 +84,7 @@ def _resources(options: argparse.Namespace, world: World) -> Resources:
     found = Resources() if options.resources is None else read_resources(Path(options.resources))
     if options.hands is not None:
         found = found.with_hands(options.hands)
-    passive = [motion.strip().lower() for motion in options.passive]
-    return found.with_passive(passive).with_counts(world, options.have)
+    return found.with_passive(world, options.passive).with_counts(world, options.have)
 
 
 def timed_plan(answer: ScheduleAnswer) -> str:
