@@ -40,6 +40,9 @@ _MANY = 250
 _FEW = 5
 """With fewer hands than that a list schedule is made, too."""
 
+_REST = 0.6
+"""Seconds that are left for what comes after the last question."""
+
 _PART = 0.4
 """Which part of the time that is left one question may take, where there are others to try."""
 
@@ -104,7 +107,7 @@ class _Search:
             if cheapest and self.asked.criterion is not None:
                 cheapest = self.cheapen()
             if cheapest:
-                self.status = Status.OPTIMAL
+                self.status, self.limit = Status.OPTIMAL, None
         except LimitReachedError as error:
             self.limit = error.limit
         if self.status is Status.LIMIT and not self.reason:
@@ -191,14 +194,17 @@ class _Search:
     def tried(self, ask: Callable[[], Model], part: float = 1.0) -> Model:
         """Ask something, for a part of the time that is left; raise `LimitReachedError` if none is."""
         seconds = limits.seconds_left()
+        # What is found last is still to be judged and written.
+        most = min(seconds * part, max(seconds * _PART, seconds - _REST))
         try:
-            with limits.limited(None if seconds == math.inf else seconds * part):
+            with limits.limited(None if seconds == math.inf else most):
                 model = ask()
         except LimitReachedError as error:
             model = Model(None, False, limit=error.limit)
         limit = limits.reached()
         if limit is not None and not model.proven:
             raise LimitReachedError(limit)
+        self.limit = model.limit or self.limit
         return model
 
     def bound_by_work(self) -> None:
