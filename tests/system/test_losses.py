@@ -20,6 +20,7 @@ LOST = ("two motions: a '//' is missing; units left out", "a unit without inputs
 READ = "--foon FOON --kitchen kitchen.json"
 CALLS = {
     "retrieve": f"retrieve {READ}",
+    "adapt": f"adapt a {READ}",
     "explain": f"explain {READ}",
     "suggest": f"suggest {READ}",
     "menu": f"menu {READ}",
@@ -34,6 +35,8 @@ CALLS = {
     "query": f"query rules.lp {READ}",
     "batch": f"batch --queries queries.jsonl {READ} --jobs 1 -o answers.jsonl",
     "plan": f"plan {READ}",
+    "schedule": f"schedule {READ}",
+    "explore": f"explore {READ} -o page.html",
     "pddl export": f"pddl export {READ} -o again",
     "pddl decode": f"pddl decode plan --names pddl/names.json {READ}",
     "facts": f"facts {READ}",
