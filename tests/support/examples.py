@@ -7,11 +7,15 @@ import os
 from hypothesis import HealthCheck, settings
 
 _ASKED = os.environ.get("FOON_ASP_EXAMPLES")
-"""How many times as many examples as a test names; None: half as many, the same ones in each run."""
+"""How many times as many examples as a test names; None: a third of them, the same ones in each run."""
+
+
+_FEW = 20
+"""No property is tried on a part of so few examples."""
 
 
 def many(examples: int) -> settings:
-    """Try a property on so many examples, if nothing else is asked for half as many."""
+    """Try a property on so many examples, if nothing else is asked for a third of them."""
     return settings(max_examples=_number(examples))
 
 
@@ -27,4 +31,6 @@ def profile() -> settings:
 
 
 def _number(examples: int) -> int:
-    return max(1, round(examples * float(_ASKED or 0.5)))
+    if _ASKED is not None:
+        return max(1, round(examples * float(_ASKED)))
+    return max(min(examples, _FEW), examples // 3)

@@ -23,7 +23,7 @@ from support.paths import ROOT
 SEED = 4711
 
 
-@pytest.mark.parametrize(("part", "rounds"), [(mutated_inputs, 1), (kills, 2), (warm_questions, 40)])
+@pytest.mark.parametrize(("part", "rounds"), [(mutated_inputs, 1), (kills, 2), (warm_questions, 15)])
 def test_a_small_drill(part: Part, rounds: int) -> None:
     outcome = part(Span.of(SEED, 60, rounds))
     assert outcome.failures == []
