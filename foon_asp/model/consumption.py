@@ -22,16 +22,17 @@ class Effects:
 
     What a unit needs and does not use up it adds no second time, though its outputs list it: it is given
     back. So is a counted implied view, which need not be there: `restores`. Implied views are deleted like
-    all other inputs. Tools are never deleted, nor is on a lower level what stands for several objects:
-    `World.lasting`. What the kitchen holds is in stock and never used up, unless the
+    all other inputs. `lasting` objects are never deleted, by default `World.lasting`: tools, and on a lower
+    level what stands for several objects. What the kitchen holds is in stock and never used up, unless the
     kitchen says how many there are: `counted`.
     """
 
-    def __init__(self, world: World, semantics: str) -> None:
+    def __init__(self, world: World, semantics: str, lasting: frozenset[ObjectId] | None = None) -> None:
         if semantics not in SEMANTICS:
             raise QueryError(f"unknown semantics {said(semantics)}; there are {', '.join(SEMANTICS)}")
         self.world = world
         self.semantics = semantics
+        self._lasting = lasting
         self._deletes: dict[UnitId, tuple[ObjectId, ...]] = {}
 
     @cached_property
@@ -79,7 +80,7 @@ class Effects:
         takes, gives = world.units.takes[unit], world.units.gives[unit]
         became = {world.node(object_id).label for object_id in world.units.makes[unit]}
         became |= {content for object_id in gives for content in world.node(object_id).contents}
-        kept = self.endless | world.lasting | set(gives)
+        kept = self.endless | (world.lasting if self._lasting is None else self._lasting) | set(gives)
         return tuple(
             object_id
             for object_id in takes

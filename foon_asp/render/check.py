@@ -9,7 +9,7 @@ from foon_asp.io.findings import Severity
 from foon_asp.limits import ended
 from foon_asp.render.table import table
 from foon_asp.retrieval.check import Check, CheckedStep, Checks, Lack
-from foon_asp.retrieval.mend import Mending, edit_rows
+from foon_asp.retrieval.mend import MOST_TRIED, Mending, edit_rows
 from foon_asp.retrieval.prompt import joined, named, near_text, unit_text
 from foon_asp.words import counted, short_source, wrapped
 
@@ -33,7 +33,8 @@ def checks_text(checks: Checks) -> str:
 def mending_head(mending: Mending) -> str:
     """Say how many edits it takes, and whether fewer would do."""
     if mending.edits is None:
-        return "no edits do" if mending.proven else f"no edits were found: {ended(mending.limit)}"
+        many = f"{MOST_TRIED} and fewer do not do" if mending.limit is None else ended(mending.limit)
+        return "no edits do" if mending.proven else f"no edits were found: {many}"
     proof = "proven fewest" if mending.proven else f"{ended(mending.limit)}, not proven"
     return f"{counted(mending.cost, 'edit')} ({proof})"
 

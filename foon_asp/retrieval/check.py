@@ -66,8 +66,6 @@ class CheckQuery:
     def __post_init__(self) -> None:
         if self.semantics not in SEMANTICS:
             raise QueryError(f"unknown semantics {said(self.semantics)}; there are {', '.join(SEMANTICS)}")
-        if self.mend and self.semantics != "add":
-            raise QueryError("trees are mended as if nothing were used up; leave out --semantics")
         check_matching(self.match_relations)
         if self.time_limit is not None:
             SECONDS.checked(self.time_limit, "time_limit")
@@ -279,7 +277,7 @@ class _Judge:
             tuple(map(world.node, goals)),
             tuple(map(world.node, inferred_kitchen(world, query.semantics, units))),
             None if executable else other_order(effects, units),
-            mend(world, self._known, units, goals) if query.mend and units else None,
+            mend(effects, self._known, units, goals) if query.mend and units else None,
         )
 
 

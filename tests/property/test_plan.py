@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from itertools import chain, combinations
 from random import Random
@@ -17,8 +17,7 @@ from foon_asp.asp.solver import open_solver
 from foon_asp.model.consumption import SEMANTICS, Effects
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
-from foon_asp.model.levels import FULL, project
-from foon_asp.model.node import Annotation, FunctionalUnit, ObjectId, ObjectNode, UnitId
+from foon_asp.model.node import Annotation, ObjectId, ObjectNode, UnitId
 from foon_asp.model.supply import Supply
 from foon_asp.model.world import World
 from foon_asp.planning.answer import PlanAnswer
@@ -31,109 +30,7 @@ from foon_asp.render.plan import plan_text
 from support import brute_force
 from support.plan_worlds import KITCHEN_UNITS, plan, recipes, with_quantities
 from support.small_foons import MOTIONS, RATES, domains, many, node, world
-
-# --- The definitions, written down once more --------------------------------------------------------
-
-
-def never_used_up(where: World) -> set[ObjectNode]:
-    """Return all tools, and what on a lower level stands for several objects; no FOON is all tools."""
-    full = where.full
-    every = {*full.foon.objects, *full.kitchen.objects}
-    stands = [(project(thing, where.level), thing) for thing in every]
-    several = {image for image, one in stands for also, other in stands if image == also and one != other}
-    tools = {image for image, thing in stands if not thing.states}
-    if not any(thing.states for thing in every):
-        return several
-    if where.level == FULL:
-        return tools.difference(*(brute_force.makes(where, unit) for unit in where.foon.units))
-    return several | tools
-
-
-class Tokens:
-    """What units do by the definitions alone; shares nothing with `foon_asp.effects` or `foon_asp.plan`.
-
-    A state holds what was made, and how many of each counted object the kitchen has left.
-    """
-
-    def __init__(self, where: World, semantics: str) -> None:
-        self.where, self.semantics = where, semantics
-        stock = dict.fromkeys(where.kitchen.objects)
-        counts = {} if semantics == "add" else dict(where.kitchen.quantities)
-        self.endless = stock.keys() - counts.keys()
-        self.lasting = never_used_up(where)
-        self.start: State = (frozenset(), tuple(sorted(counts.items(), key=str)))
-        self.needs = {unit.id: brute_force.needs(where, unit) for unit in where.foon.units}
-        # What is needed and given back is no second one, nor is a counted view that was there.
-        self.restores = {
-            unit.id: {where.foon.objects[number] for number in unit.inputs}.intersection(
-                self.made(unit), counts
-            ).difference(self.needs[unit.id])
-            for unit in where.foon.units
-        }
-        self.adds = {
-            unit.id: self.made(unit) - self.needs[unit.id] - self.restores[unit.id]
-            for unit in where.foon.units
-        }
-        self.takes = {unit.id: self.taken(unit) for unit in where.foon.units}
-
-    def outputs(self, unit: FunctionalUnit) -> list[ObjectNode]:
-        return [self.where.foon.objects[number] for number in unit.outputs]
-
-    def made(self, unit: FunctionalUnit) -> set[ObjectNode]:
-        """Return what a unit makes; labels alone do not tell."""
-        return set(self.outputs(unit)) if self.where.level == 1 else brute_force.makes(self.where, unit)
-
-    def taken(self, unit: FunctionalUnit) -> set[ObjectNode]:
-        if self.semantics == "add":
-            return set()
-        taken = {self.where.foon.objects[number] for number in unit.inputs} - set(self.outputs(unit))
-        if self.semantics == "transform":
-            held = [
-                content
-                for output in self.outputs(unit)
-                for state in output.states
-                if state.name == "contains"
-                for content in state.contents or ()
-            ]
-            forms = {output.label for output in self.made(unit)}
-            taken = {thing for thing in taken if thing.label in forms or thing.label in held}
-        return taken - self.endless - self.lasting
-
-    def has(self, state: State, thing: ObjectNode) -> bool:
-        made, left = state
-        return thing in self.endless or thing in made or dict(left).get(thing, 0) > 0
-
-    def lacks(self, state: State, unit: UnitId) -> set[ObjectNode]:
-        return {need for need in self.needs[unit] if not self.has(state, need)}
-
-    def after(self, state: State, units: Iterable[UnitId]) -> State:
-        made, counts = set(state[0]), dict(state[1])
-        for unit in units:
-            restored = {thing for thing in self.restores[unit] if thing not in made and not counts[thing]}
-            for thing in self.takes[unit]:
-                if thing in made:
-                    made.discard(thing)
-                elif thing in counts:
-                    counts[thing] = max(0, counts[thing] - 1)
-            made |= self.adds[unit] | restored
-        return frozenset(made), tuple(sorted(counts.items(), key=str))
-
-    def disturbs(self, one: UnitId, other: UnitId) -> bool:
-        """Whether one unit takes away what the other needs, takes or adds."""
-        brought = self.adds[other] | self.restores[other]
-        return bool(self.takes[one] & (self.needs[other] | self.takes[other] | brought))
-
-    def steps(self, state: State) -> Iterator[tuple[UnitId, ...]]:
-        """Yield every set of units that can be done at once."""
-        ready = [unit for unit in self.needs if not self.lacks(state, unit)]
-        for size in range(len(ready) + 1):
-            for units in combinations(ready, size):
-                pairs = list(combinations(units, 2))
-                if not any(self.disturbs(a, b) or self.disturbs(b, a) for a, b in pairs):
-                    yield units
-
-
-State = tuple[frozenset[ObjectNode], tuple[tuple[ObjectNode, int], ...]]
+from support.tokens import State, Tokens
 
 
 def fewest_then_cheapest(
@@ -159,7 +56,7 @@ def fewest_then_cheapest(
                 keys = paid.union(*(prices.once.get(unit, ()) for unit in units))
                 more = sum(prices.per_unit[unit] for unit in units)
                 more += sum(prices.fees[key] for key in keys - paid)
-                place = (tokens.after(state, units), keys)
+                place = (tokens.after(state, map(tokens.deeds.__getitem__, units)), keys)
                 new = (cost + more, count + len(units))
                 following[place] = min(new, following.get(place, new))
         layer = following
@@ -210,12 +107,12 @@ def test_effects_are_those_of_the_encoding_and_of_the_definitions(where: World, 
     assert set(answer.rows("restores")) == restores
     assert set(answer.column("endless")) == effects.endless
     assert {(unit, where.node(thing)) for unit, thing in deletes} == {
-        (unit, thing) for unit in units for thing in tokens.takes[unit]
+        (unit, thing) for unit in units for thing in tokens.deeds[unit].takes
     }
     assert {where.node(thing) for thing in effects.endless} == tokens.endless
     for unit in units:
-        assert {where.node(thing) for thing in effects.adds(unit)} == tokens.adds[unit]
-        assert {where.node(thing) for thing in effects.restores(unit)} == tokens.restores[unit]
+        assert {where.node(thing) for thing in effects.adds(unit)} == tokens.deeds[unit].adds
+        assert {where.node(thing) for thing in effects.restores(unit)} == tokens.deeds[unit].restores
 
 
 @many(300)
@@ -224,15 +121,15 @@ def test_replay_is_the_definition(where: World, semantics: str, data: st.DataObj
     """Units are drawn from those that can be executed, but for a blind one now and then."""
     effects, tokens = Effects(where, semantics), Tokens(where, semantics)
     state, order, failed = tokens.start, [], False
-    every = list(tokens.needs)
+    every = list(tokens.deeds)
     for _ in range(data.draw(st.integers(0, 8))):
-        ready = [unit for unit in every if not tokens.lacks(state, unit)]
+        ready = [unit for unit in every if not tokens.lacks(state, tokens.deeds[unit])]
         unit = data.draw(st.sampled_from(ready * 5 + every))
         order.append(unit)
-        if lacking := tokens.lacks(state, unit):
+        if lacking := tokens.lacks(state, tokens.deeds[unit]):
             failed = True
             break
-        state = tokens.after(state, [unit])
+        state = tokens.after(state, [tokens.deeds[unit]])
     goal = data.draw(st.sampled_from(where.foon.objects))
     replay = replay_plan(effects, [where.id_of(goal)], order)
     if failed:
@@ -258,13 +155,13 @@ def test_what_is_gone_was_there(where: World, semantics: str, data: st.DataObjec
     effects, tokens = Effects(where, semantics), Tokens(where, semantics)
     state, order, gone = tokens.start, [], []
     for _ in range(data.draw(st.integers(0, 8))):
-        ready = [unit for unit in tokens.needs if not tokens.lacks(state, unit)]
+        ready = [unit for unit in tokens.deeds if not tokens.lacks(state, tokens.deeds[unit])]
         if not ready:
             break
         unit = data.draw(st.sampled_from(ready))
         order.append(unit)
-        gone.append({str(thing) for thing in tokens.takes[unit] if tokens.has(state, thing)})
-        state = tokens.after(state, [unit])
+        gone.append({str(thing) for thing in tokens.deeds[unit].takes if tokens.has(state, thing)})
+        state = tokens.after(state, [tokens.deeds[unit]])
     assert said_gone(plan_text(Plan.of(effects, (), order), effects)) == gone
 
 
@@ -352,10 +249,11 @@ def test_the_earliest_steps_are_parallel_ones(where: World, semantics: str, seed
     state = tokens.start
     for step in range(1, max(steps, default=0) + 1):
         units = [unit for unit, own in zip(order, steps, strict=True) if own == step]
-        assert not any(tokens.lacks(state, unit) for unit in units)
-        pairs = list(combinations(units, 2))
-        assert not any(tokens.disturbs(a, b) or tokens.disturbs(b, a) for a, b in pairs if a != b)
-        state = tokens.after(state, units)
+        deeds = [tokens.deeds[unit] for unit in units]
+        assert not any(tokens.lacks(state, deed) for deed in deeds)
+        pairs = [(tokens.deeds[a], tokens.deeds[b]) for a, b in combinations(units, 2) if a != b]
+        assert not any(tokens.disturbs(a, b) or tokens.disturbs(b, a) for a, b in pairs)
+        state = tokens.after(state, deeds)
 
 
 # --- Plans ------------------------------------------------------------------------------------------
@@ -406,8 +304,11 @@ def hardest(tokens: Tokens) -> list[ObjectNode]:
     """Return the two or three things that take most units to have at once."""
     states, queue = {tokens.start}, [tokens.start]
     for state in queue:
-        for unit in tokens.needs:
-            if not tokens.lacks(state, unit) and (after := tokens.after(state, [unit])) not in states:
+        for unit in tokens.deeds:
+            if (
+                not tokens.lacks(state, tokens.deeds[unit])
+                and (after := tokens.after(state, [tokens.deeds[unit]])) not in states
+            ):
                 states.add(after)
                 queue.append(after)
     things = [thing for thing in tokens.where.foon.objects if thing not in tokens.endless]
@@ -449,7 +350,7 @@ def parallel(result: PlanAnswer, tokens: Tokens) -> None:
         pairs = zip(result.plan.units, result.plan.steps, strict=True)
         units = tuple(sorted(unit for unit, own in pairs if own == step))
         assert units in set(tokens.steps(state))
-        state = tokens.after(state, units)
+        state = tokens.after(state, map(tokens.deeds.__getitem__, units))
     assert all(tokens.has(state, goal) for goal in result.goals)
 
 
@@ -460,8 +361,11 @@ def test_unreachable_by_search_is_never_wrong(where: World, semantics: str, data
     tokens = Tokens(where, semantics)
     seen, queue = {tokens.start}, [tokens.start]
     for state in queue:
-        for unit in tokens.needs:
-            if not tokens.lacks(state, unit) and (after := tokens.after(state, [unit])) not in seen:
+        for unit in tokens.deeds:
+            if (
+                not tokens.lacks(state, tokens.deeds[unit])
+                and (after := tokens.after(state, [tokens.deeds[unit]])) not in seen
+            ):
                 seen.add(after)
                 queue.append(after)
     reached = any(all(tokens.has(state, goal) for goal in goals) for state in queue)

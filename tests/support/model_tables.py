@@ -160,7 +160,7 @@ CRACK, BEAT, FRY = (
     f'step({{step}}). listed({{step}},"input",{one}). listed({{step}},"output",{other}). '
     for one, other in ((1, 2), (2, 3), (3, 4))
 )
-MENDS = "moved/1 removed/1 inserted/1 changed/4"
+MENDS = "moved/1 removed/1 inserted/2 changed/4"
 
 RETRIEVAL = (
     Case(
@@ -322,6 +322,16 @@ RETRIEVAL = (
         ("closes(0,1) closes(1,3)",),
     ),
     Case(
+        "retrieval/edits.lp",
+        "what an object is changed to is listed instead of it; all else stays as it is",
+        MENDED
+        + CRACK.format(step=11)
+        + BEAT.format(step=12)
+        + 'variant(2,3,1). :- not changed(11,"output",2,3).',
+        "input/2 output/2 stays/1",
+        ("input(11,1) input(12,2) output(11,3) output(12,3) stays(11) stays(12)",),
+    ),
+    Case(
         "retrieval/mend.lp",
         "a step that comes too early is moved, the first one where several would do",
         MENDED + CRACK.format(step=12) + BEAT.format(step=11) + FRY.format(step=13),
@@ -333,7 +343,7 @@ RETRIEVAL = (
         "a known step is inserted where one lacks",
         MENDED + CRACK.format(step=11) + FRY.format(step=12) + WHISK,
         MENDS,
-        ("inserted(0)",),
+        ("inserted(0,0)",),
     ),
     Case(
         "retrieval/mend.lp",
@@ -348,6 +358,28 @@ RETRIEVAL = (
         MENDED + FRY.format(step=11) + CRACK.format(step=12) + BEAT.format(step=13) + FRY.format(step=14),
         MENDS,
         ("moved(11)",),
+    ),
+    Case(
+        "retrieval/mend_in_order.lp",
+        "what is used up is made again, between the two steps that take it",
+        MENDED
+        + "goal(3). unit(0). input(0,1). output(0,2). "
+        + CRACK.format(step=11)
+        + BEAT.format(step=12)
+        + 'step(13). listed(13,"input",2). listed(13,"output",4).',
+        MENDS,
+        ("inserted(0,3)",),
+        constants="semantics=consume horizon=4",
+        parts=(*(("step", time) for time in range(1, 5)), ("whole", 4)),
+    ),
+    Case(
+        "retrieval/mend_in_order.lp",
+        "without a time for it nothing is inserted",
+        MENDED + CRACK.format(step=11) + FRY.format(step=12) + WHISK,
+        MENDS,
+        (),
+        constants="horizon=2",
+        parts=(("step", 1), ("step", 2), ("whole", 2)),
     ),
     Case(
         "retrieval/transitions.lp",

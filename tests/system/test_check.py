@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -234,7 +235,28 @@ def test_changes_inserts_and_removals(tmp_path: Path, capsys: pytest.CaptureFixt
 
 def test_what_mending_refuses(tree: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(capsys, "check", tree, tree, "--mend")[0] == 2
-    assert run(capsys, "check", tree, "--mend", "--semantics", "consume")[0] == 2
+
+
+def test_mending_where_objects_are_used_up(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    peel = (["onion [whole]"], "peel", ["onion [peeled]"])
+    chop, slice_ = (["onion [peeled]"], "chop", ["cubes"]), (["onion [peeled]"], "slice", ["rings"])
+    tree = [peel, chop, slice_, (["cubes", "rings"], "mix", ["salad"])]
+    assert fa.check(tree)
+    [checked] = fa.check(tree, semantics="consume", mend=True)
+    assert not checked
+    mending = checked.mending
+    assert mending is not None
+    assert [(edit.kind, edit.step) for edit in mending.edits or ()] == [("change", 2)]
+    path = tmp_path / "mended.json"
+    path.write_text(write_units(mending.foon, mending.functional_units), encoding="utf-8")
+    assert run(capsys, "check", path, "--semantics", "consume")[0] == 0
+    # However often the one onion is peeled, nothing but trying tells that there is no second one.
+    known = fa.World(fa.read([peel]), ["onion [whole]"])
+    [onion] = known.kitchen.objects
+    single = replace(known.kitchen, quantities={onion: 1})
+    asked = fa.check(tree, kitchen=single, known=known, semantics="consume", mend=True)
+    assert asked.status is fa.Status.LIMIT
+    assert "To mend it: no edits were found: 16 and fewer do not do" in str(asked)
 
 
 def test_mending_ends_at_the_time_limit(tree: str, capsys: pytest.CaptureFixture[str]) -> None:
