@@ -246,6 +246,11 @@ def read_end(row: str) -> tuple[Oddity, ...]:
     return (("stray-text", f"{rest!r} behind '//' is left out", ""),) if rest else ()
 
 
+def only_ends(row: str) -> bool:
+    """Whether a line that ends a unit says nothing else, so that it can be deleted where there is none."""
+    return all(code == "other-end" for code, *_ in read_end(row))
+
+
 def read_object(row: str) -> tuple[str, Mark, tuple[Oddity, ...]]:
     """Read `O<id?> label [flag [goal mark]]`; the label is empty if there is none."""
     odd = _odd_head(row)

@@ -14,7 +14,7 @@ import numpy as np
 
 from foon_asp import limits
 from foon_asp.io.findings import Finding, oddity
-from foon_asp.io.lines import END, Lines
+from foon_asp.io.lines import END, Lines, only_ends
 from foon_asp.io.syntax import FROM_NOTHING, LabelIds, check_sides, repeated, times_fields
 from foon_asp.io.units import Units, ranks
 from foon_asp.io.vocabulary import CURRENT, Vocabulary
@@ -201,7 +201,8 @@ class TextReader:
         begin = int(units.ends[unit - 1]) + 1 if unit else 0
         between = (self._lines.texts[each] for each in units.lines[begin:end].tolist())
         doubled = line + begin > 1 and not any(map(str.strip, between))
-        mend = "delete the line" if doubled and not units.known.odd[units.lines[end]] else ""
+        needless = doubled and only_ends(self._lines.texts[int(units.lines[end])])
+        mend = "delete the line" if needless else ""
         self._report(line + end, "empty-unit", "this '//' ends a unit that is empty", mend)
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from foon_asp.characters import one_line, without_control_characters
 from foon_asp.io.findings import Finding, oddity
-from foon_asp.io.lines import read_end, read_motion, read_object, read_origin, read_state, stray
+from foon_asp.io.lines import only_ends, read_end, read_motion, read_object, read_origin, read_state, stray
 from foon_asp.io.syntax import FROM_NOTHING, check_sides, repeated
 from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.node import Mark, ObjectNode, Source, State
@@ -122,7 +122,7 @@ class PlainReader:
         for one in odd:
             self._report(line, *one)
         if not found:
-            mend = "delete the line" if doubled and not odd else ""
+            mend = "delete the line" if doubled and only_ends(row) else ""
             self._report(line, "empty-unit", "this '//' ends a unit that is empty", mend)
 
     def _finish(self) -> bool:

@@ -195,6 +195,12 @@ def test_files_that_were_joined_have_byte_order_marks_inside() -> None:
     assert files.units_read == 2
 
 
+@pytest.mark.parametrize("end", ["//", "/", "\\", "\\\\"])
+def test_an_end_too_many_is_deleted_whatever_it_is_written_with(end: str) -> None:
+    text = f"O\ta\nM\tx\nO\tb\n{end}\n{end}\n"
+    assert check_mending(text, read(text)) == "O\ta\nM\tx\nO\tb\n//\n"
+
+
 @pytest.mark.parametrize(
     "text", ["O\tA \"b\" \\ 'c'\nM\tX\nO\tB\n//\n", f"O\t{'a' * 1_000_000}\nM\tx\nO\tb\n//\n"]
 )
