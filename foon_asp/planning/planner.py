@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 
 from foon_asp import limits
 from foon_asp.limits import Limit, LimitReachedError
-from foon_asp.model.consumption import Effects
 from foon_asp.model.world import World
 from foon_asp.planning.answer import PlanAnswer
 from foon_asp.planning.clingo import plan_by_clingo
 from foon_asp.planning.engines import find_engine, plan_by_engine
-from foon_asp.planning.problem import PlanProblem
+from foon_asp.planning.problem import posed
 from foon_asp.planning.query import OWN_ENGINE, PlanQuery
-from foon_asp.query.checks import check_objective
-from foon_asp.query.problem import Problem
 from foon_asp.query.query import Query
 from foon_asp.query.status import Status
 
@@ -29,11 +25,7 @@ def plan(world: World, asked: PlanQuery, progress: Callable[[float], None] | Non
     """
     started = time.perf_counter()
     engine = None if asked.engine == OWN_ENGINE else find_engine(asked.engine)
-    world = asked.query.seen_in(world)
-    asked = replace(asked, query=asked.query.checked(world))
-    effects = Effects(world, asked.semantics)
-    problem = PlanProblem(effects, Problem.posed(world, asked.query).goals)
-    check_objective(problem, asked.query.by)
+    asked, problem = posed(world, asked)
     with limits.limited(asked.query.time_limit, asked.query.memory_limit):
         try:
             if engine is None:
@@ -41,7 +33,9 @@ def plan(world: World, asked: PlanQuery, progress: Callable[[float], None] | Non
             return plan_by_engine(problem, asked, engine, progress)
         except LimitReachedError as error:
             reason, seconds = _no_plan(asked.query, error.limit), time.perf_counter() - started
-            return PlanAnswer(asked, effects, Status.LIMIT, None, None, reason, seconds, limit=error.limit)
+            return PlanAnswer(
+                asked, problem.effects, Status.LIMIT, None, None, reason, seconds, limit=error.limit
+            )
 
 
 def _no_plan(query: Query, limit: Limit) -> str:

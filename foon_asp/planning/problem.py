@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from functools import cached_property
+from typing import TYPE_CHECKING, TypeVar
 
 from foon_asp.model.consumption import Effects
 from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.model.reachability import backward, within
+from foon_asp.model.world import World
+from foon_asp.query.checks import check_objective
 from foon_asp.query.problem import Problem
+
+if TYPE_CHECKING:
+    # Only their types are needed here.
+    from foon_asp.planning.query import PlanQuery
+    from foon_asp.planning.schedule_query import ScheduleQuery
+
+Asked = TypeVar("Asked", "PlanQuery", "ScheduleQuery")
 
 
 class PlanProblem(Problem):
@@ -38,3 +49,15 @@ class PlanProblem(Problem):
             allowed = within(world.units, world.stock, self._among).executable
         units = backward(world.units, self.goals, effects.endless, allowed)
         return [unit for unit in units if effects.makes_a_difference(unit)]
+
+
+def posed(world: World, asked: Asked) -> tuple[Asked, PlanProblem]:
+    """Return a question as it is meant in a world, and the problem that it poses there.
+
+    Raises `QueryError` if the question does not fit the data.
+    """
+    world = asked.query.seen_in(world)
+    asked = replace(asked, query=asked.query.checked(world))
+    problem = PlanProblem(Effects(world, asked.semantics), Problem.posed(world, asked.query).goals)
+    check_objective(problem, asked.query.by)
+    return asked, problem

@@ -23,14 +23,12 @@ from foon_asp.planning.first_plan import first_plans
 from foon_asp.planning.list_schedule import list_schedule
 from foon_asp.planning.plan import Plan
 from foon_asp.planning.prices import Prices, plan_cost
-from foon_asp.planning.problem import PlanProblem
+from foon_asp.planning.problem import posed
 from foon_asp.planning.query import PlanQuery
 from foon_asp.planning.schedule import Schedule, faults
 from foon_asp.planning.schedule_answer import ScheduleAnswer
 from foon_asp.planning.schedule_clingo import AGAIN, Task, counts_of
 from foon_asp.planning.schedule_query import ScheduleQuery
-from foon_asp.query.checks import check_objective
-from foon_asp.query.problem import Problem
 from foon_asp.query.status import Status
 from foon_asp.query.unreachable import unreachable_reason
 
@@ -54,13 +52,9 @@ def schedule(world: World, asked: ScheduleQuery, known: Schedule | None = None) 
     longer than that. Raises `QueryError` if the question does not fit the data.
     """
     started = time.perf_counter()
-    world = asked.query.seen_in(world)
-    asked = replace(asked, query=asked.query.checked(world))
-    effects = Effects(world, asked.semantics)
-    problem = PlanProblem(effects, Problem.posed(world, asked.query).goals)
-    check_objective(problem, asked.query.by)
+    asked, problem = posed(world, asked)
     with limits.limited(asked.query.time_limit, asked.query.memory_limit):
-        task = Task.of(problem, asked.resources, durations(world, problem.units, asked.durations))
+        task = Task.of(problem, asked.resources, durations(problem.world, problem.units, asked.durations))
         if asked.criterion is not None:
             # Whether its weights can be paid at all is told before anything is looked for.
             Prices.of(problem, asked.criterion)
@@ -69,7 +63,7 @@ def schedule(world: World, asked: ScheduleQuery, known: Schedule | None = None) 
     best = search.best
     return ScheduleAnswer(
         asked,
-        effects,
+        problem.effects,
         task.durations,
         search.status,
         best,
