@@ -32,6 +32,7 @@ from foon_asp.io.syntax import (
 from foon_asp.io.wire import dumps
 from foon_asp.model.foon import Foon, FoonBuilder
 from foon_asp.model.node import (
+    NO_MARK,
     Annotation,
     FunctionalUnit,
     Interval,
@@ -42,7 +43,6 @@ from foon_asp.model.node import (
     contains,
 )
 
-_NO_MARK = Mark()
 _UNIT_KEYS = ("input_nodes", "motion_node", "output_nodes", "source")
 _TIME_KEYS = ("start_time", "end_time")
 _MOTION_KEYS = (
@@ -127,7 +127,7 @@ class JsonReader:
             times=self._read_times(note),
             agent=_one_line(note.get("robot_type")),
             rate=self._read_rate(note),
-            marks=() if all(mark == _NO_MARK for mark in marks) else tuple(marks),
+            marks=() if all(mark == NO_MARK for mark in marks) else tuple(marks),
         )
         self._add(motion, inputs, outputs, annotation)
 
@@ -150,11 +150,11 @@ class JsonReader:
     def _read_mark(self, item: dict[str, object]) -> Mark:
         moves = item.get("object_in_motion")
         if moves is None or moves == "":
-            return _NO_MARK
+            return NO_MARK
         if isinstance(moves, bool | int | str) and str(moves).lower() in ("0", "1", "true", "false"):
             return Mark(str(moves).lower() in ("1", "true"))
         self._report("stray-field", f"'object_in_motion' is {kind_of(moves)}, not 0 or 1")
-        return _NO_MARK
+        return NO_MARK
 
     def _read_times(self, note: dict[str, object]) -> tuple[Interval, ...]:
         """Read start and end, or all of several intervals."""
@@ -252,8 +252,7 @@ class _Api:
 
     def unit(self, unit: FunctionalUnit) -> dict[str, object]:
         ports = unit.inputs + unit.outputs
-        marks = unit.annotation.marks or (_NO_MARK,) * len(ports)
-        objects = [self._object(number, mark) for number, mark in zip(ports, marks, strict=True)]
+        objects = [self._object(number, mark) for number, mark in zip(ports, unit.marks, strict=True)]
         value: dict[str, object] = {
             "input_nodes": objects[: len(unit.inputs)],
             "motion_node": self._motion(unit),

@@ -29,7 +29,7 @@ from foon_asp.io.syntax import (
 from foon_asp.io.vocabulary import CURRENT, Vocabulary
 from foon_asp.model.arrays import Numbers
 from foon_asp.model.foon import FoonBuilder
-from foon_asp.model.node import Annotation, Interval, Mark, State
+from foon_asp.model.node import NO_MARK, Annotation, Interval, Mark, State
 from foon_asp.model.numbering import different
 
 REST, OBJECT, MOTION, END, COMMENT, VIDEO, ORIGIN = range(7)
@@ -48,7 +48,6 @@ _PLAIN_CONTENTS = re.compile(r"S\d*\tcontains\t\{([a-z]+(?:[ ,][a-z]+)*)\}")
 _LIKE_A_TIME = re.compile(r"[<\d]|assume|unknown|n/?a|-|$", re.IGNORECASE)
 _NOT_A_LABEL = re.compile(r"[\d!]*|none|null|n/a", re.IGNORECASE)
 
-_NO_MARK = Mark()
 _DOUBTFUL = frozenset({"unbalanced-brackets", "stray-text"})
 """A line that is odd in one of these ways is not mended in others: what it means is not certain."""
 
@@ -264,7 +263,7 @@ def read_object(row: str) -> tuple[str, Mark, tuple[Oddity, ...]]:
     if more:
         label = " ".join([label, *fields[1 : 1 + more]]).lower()
         odd.append(("tab-in-label", f"a tab inside of a label, read as {label!r}"))
-    mark = _read_mark(fields[1 + more :], odd) if len(fields) > 1 else _NO_MARK
+    mark = _read_mark(fields[1 + more :], odd) if len(fields) > 1 else NO_MARK
     return label, mark, _mended(row, odd)
 
 
@@ -344,7 +343,7 @@ def _label_fields(fields: list[str], ends_label: Callable[[str], object]) -> int
 def _read_mark(fields: list[str], odd: list[tuple[str, str]]) -> Mark:
     """Read the flag (0/1: it moves) and the goal mark (`!` or a dish category)."""
     if not fields:
-        return _NO_MARK
+        return NO_MARK
     moves: bool | None = None
     goal = ""
 
@@ -363,7 +362,7 @@ def _read_mark(fields: list[str], odd: list[tuple[str, str]]) -> Mark:
             goal = text
         else:
             odd.append(("stray-field", f"{text!r} is neither a flag nor a goal mark"))
-    return Mark(moves, goal) if goal or moves is not None else _NO_MARK
+    return Mark(moves, goal) if goal or moves is not None else NO_MARK
 
 
 def _plain_contents(row: str) -> list[str] | None:

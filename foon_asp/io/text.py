@@ -24,7 +24,6 @@ from foon_asp.model.node import FunctionalUnit, Mark, ObjectId, ObjectNode, Stat
 
 Dialect = Literal["A", "B"]
 
-_NO_MARK = Mark()
 
 _STRETCH = 1 << 20
 """How many lines are put together to units at once."""
@@ -267,8 +266,7 @@ class _Annotated:
 
     def unit(self, unit: FunctionalUnit) -> Iterator[str]:
         ports = unit.inputs + unit.outputs
-        marks = unit.annotation.marks or (_NO_MARK,) * len(ports)
-        lines = [self._object(number, mark) for number, mark in zip(ports, marks, strict=True)]
+        lines = [self._object(number, mark) for number, mark in zip(ports, unit.marks, strict=True)]
         for place, rows in enumerate(lines):
             if place == len(unit.inputs):
                 yield self._motion(unit)

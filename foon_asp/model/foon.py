@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from foon_asp.errors import QueryError
 from foon_asp.model.arrays import K, Mask, Numbers, Rows, V
-from foon_asp.model.node import Annotation, FunctionalUnit, Mark, ObjectId, ObjectNode, UnitId
+from foon_asp.model.node import NO_MARK, Annotation, FunctionalUnit, Mark, ObjectId, ObjectNode, UnitId
 from foon_asp.model.numbering import Numbering, RowNumbering, with_set
 from foon_asp.model.tables import Notes, ObjectTable, StateTable, UnitTable
 from foon_asp.values import a_list, said
@@ -129,9 +129,6 @@ class Foon:
         return list(self.goal_marks())
 
 
-_NO_MARK = Mark()
-
-
 class Added(Enum):
     """What became of a unit that was added to a FOON."""
 
@@ -191,7 +188,7 @@ class FoonBuilder:
         self.words: Numbering[str] = Numbering()
         self.motions: Numbering[str] = Numbering()
         self.agents: Numbering[str] = Numbering()
-        self.marks: Numbering[Mark] = Numbering([_NO_MARK])
+        self.marks: Numbering[Mark] = Numbering([NO_MARK])
         self.files: Numbering[str] = Numbering()
         self.videos: Numbering[str] = Numbering()
         self.read = 0

@@ -231,6 +231,10 @@ class Mark:
     goal: str = ""
 
 
+NO_MARK = Mark()
+"""It says nothing."""
+
+
 @dataclass(frozen=True, slots=True)
 class Interval:
     """A stretch of a video, in seconds from its beginning; None where that is not known."""
@@ -280,6 +284,11 @@ class FunctionalUnit:
     inputs: tuple[ObjectId, ...]
     outputs: tuple[ObjectId, ...]
     annotation: Annotation = Annotation()
+
+    @property
+    def marks(self) -> tuple[Mark, ...]:
+        """The mark of each input, then of each output."""
+        return self.annotation.marks or (NO_MARK,) * (len(self.inputs) + len(self.outputs))
 
     @property
     def source(self) -> Source:
