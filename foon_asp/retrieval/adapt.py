@@ -25,11 +25,11 @@ from foon_asp.query.substitutes import Substitutes
 from foon_asp.query.substitution import Replacement, Substitution
 from foon_asp.query.unreachable import unreachable_reason
 from foon_asp.retrieval.adapt_wire import adaptation_json
-from foon_asp.retrieval.answer import Answer
+from foon_asp.retrieval.answer import Answer, Answered
 from foon_asp.retrieval.conflict import conflict_reason
 from foon_asp.retrieval.methods.found import Found
 from foon_asp.retrieval.substitute import Space, likest
-from foon_asp.retrieval.tree import Step, TaskTree
+from foon_asp.retrieval.tree import TaskTree
 from foon_asp.values import a_list, said
 
 _ENCODINGS = ("retrieval/adapt.lp",)
@@ -51,7 +51,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Adaptation:
+class Adaptation(Answered):
     """An adapted dish; it is true if there is one.
 
     `answer` has the tree of the nearest dish, with all that was `replaced` or left out and all `additions`,
@@ -61,19 +61,12 @@ class Adaptation:
     nearest first.
     """
 
-    answer: Answer
     wanted: tuple[str, ...]
     distance: float | None
     additions: tuple[Replacement, ...]
     missing: tuple[str, ...]
     candidates: tuple[Candidate, ...]
     seconds: float
-
-    def __bool__(self) -> bool:
-        return bool(self.answer)
-
-    def __iter__(self) -> Iterator[Step]:
-        return iter(self.answer)
 
     def __repr__(self) -> str:
         far = "" if self.distance is None else f", {self.distance:g} away"
@@ -95,11 +88,6 @@ class Adaptation:
         return self.answer.tree
 
     @property
-    def status(self) -> Status:
-        """How the search ended."""
-        return self.answer.status
-
-    @property
     def replaced(self) -> tuple[Replacement, ...]:
         """What was replaced or left out."""
         return () if self.tree is None else self.tree.replacements
@@ -112,10 +100,6 @@ class Adaptation:
     def to_json(self) -> str:
         """Return what the command writes with `--format json`."""
         return dumps(adaptation_json(self))
-
-    def to_foon(self) -> str:
-        """Return the tree as FOON text; raise `QueryError` if there is none."""
-        return self.answer.to_foon()
 
 
 @dataclass(frozen=True, slots=True)

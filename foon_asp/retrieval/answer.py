@@ -139,3 +139,25 @@ class Answer:
         from foon_asp.render.notebook import answer_html
 
         return answer_html(self)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Answered:
+    """What has an answer and says more of it; it is true if there is a tree, and has its steps."""
+
+    answer: Answer
+
+    def __bool__(self) -> bool:
+        return bool(self.answer)
+
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self.answer)
+
+    @property
+    def status(self) -> Status:
+        """How the search for the tree ended."""
+        return self.answer.status
+
+    def to_foon(self) -> str:
+        """Return the tree as FOON text; raise `QueryError` if there is none."""
+        return self.answer.to_foon()

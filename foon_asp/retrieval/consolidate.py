@@ -25,13 +25,13 @@ from foon_asp.query.objective import UNITS, Costs, Objective
 from foon_asp.query.query import Query
 from foon_asp.query.status import Status
 from foon_asp.query.unreachable import is_raw
-from foon_asp.retrieval.answer import Answer
+from foon_asp.retrieval.answer import Answer, Answered
 from foon_asp.retrieval.consolidate_wire import consolidation_json
 from foon_asp.retrieval.explain import Explanation, explain
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.samples import Reworded, Sample, Samples, Words, read_samples
 from foon_asp.retrieval.transitions import ASPECTS, Aspect, Models, Refusal, refusals
-from foon_asp.retrieval.tree import Step, TaskTree
+from foon_asp.retrieval.tree import TaskTree
 from foon_asp.words import counted, shortened
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class Backing:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Consolidation:
+class Consolidation(Answered):
     """One tree made of several; it is true if there is one that can be executed.
 
     `answer` is the best tree, proven, or why there is none; `backing` says of each of its units which trees
@@ -122,7 +122,6 @@ class Consolidation:
     where there is no tree.
     """
 
-    answer: Answer
     world: World
     foon: Foon
     samples: tuple[SampleReport, ...]
@@ -133,12 +132,6 @@ class Consolidation:
     unpriced: tuple[str, ...]
     explanation: Explanation | None
     seconds: float
-
-    def __bool__(self) -> bool:
-        return bool(self.answer)
-
-    def __iter__(self) -> Iterator[Step]:
-        return iter(self.answer)
 
     def __repr__(self) -> str:
         return f"<Consolidation: {counted(len(self.samples), 'tree')}, {self.answer!r}>"
@@ -152,11 +145,6 @@ class Consolidation:
     def goal(self) -> ObjectNode:
         """What the tree is for."""
         return self.answer.goal
-
-    @property
-    def status(self) -> Status:
-        """How the search for the tree ended."""
-        return self.answer.status
 
     @property
     def kitchen(self) -> tuple[ObjectNode, ...]:
@@ -173,10 +161,6 @@ class Consolidation:
     def to_json(self) -> str:
         """Return what the command writes with `--format json`."""
         return dumps(consolidation_json(self))
-
-    def to_foon(self) -> str:
-        """Return the tree as FOON text; raise `QueryError` if there is none."""
-        return self.answer.to_foon()
 
     def to_frame(self) -> pd.DataFrame:
         """Return the steps, a row each, with their support: in how many trees they are, and in which."""
