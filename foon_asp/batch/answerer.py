@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from foon_asp.batch.query_file import Line
 from foon_asp.batch.rows import Id, Row, Rows, answer_row, error_row
 from foon_asp.errors import FoonError, InternalError
-from foon_asp.io.folder import Sources
+from foon_asp.io.folder import Dataset, Sources
 from foon_asp.model.node import ObjectNode
 from foon_asp.model.world import World
 from foon_asp.query.kitchen_change import AS_IT_IS, supplied
@@ -38,8 +38,9 @@ class Settings:
 class Answerer:
     """The data, opened once, and the answers to queries over it. Threads may share it."""
 
-    def __init__(self, sources: Sources, settings: Settings) -> None:
-        self.dataset = sources.load()
+    def __init__(self, sources: Sources, settings: Settings, dataset: Dataset | None = None) -> None:
+        """Open the data, if they are not open yet."""
+        self.dataset = sources.load() if dataset is None else dataset
         self._settings = settings
         self._world = self.dataset.world(strict=sources.strict, level=sources.level)
         self._worlds: OrderedDict[frozenset[ObjectNode], World] = OrderedDict()

@@ -18,7 +18,7 @@ from foon_asp.batch.query_file import Chunk
 from foon_asp.batch.rows import Rows
 from foon_asp.batch.tasks import Task, TaskQueue
 from foon_asp.errors import FoonError, QueryError
-from foon_asp.io.folder import Sources
+from foon_asp.io.folder import Dataset, Sources
 from foon_asp.processes import leave_with_parent
 
 _CYCLES = 50_000
@@ -34,9 +34,11 @@ def cores() -> int:
     return len(allowed(0)) if allowed else os.cpu_count() or 1
 
 
-def answer_here(sources: Sources, settings: Settings, chunks: Iterable[Chunk]) -> Generator[Rows, None, None]:
-    """Answer chunks in this process, one after the other."""
-    answerer = Answerer(sources, settings)
+def answer_here(
+    sources: Sources, dataset: Dataset, settings: Settings, chunks: Iterable[Chunk]
+) -> Generator[Rows, None, None]:
+    """Answer chunks over data that are open, in this process, one after the other."""
+    answerer = Answerer(sources, settings, dataset)
     before = gc.get_threshold()
     gc.set_threshold(_CYCLES)
     try:

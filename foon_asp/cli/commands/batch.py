@@ -20,6 +20,7 @@ from foon_asp.cli.messages import tell
 from foon_asp.cli.output import STDOUT, Reply, file_to_write
 from foon_asp.cli.parser import Parser, Renamed
 from foon_asp.errors import QueryError
+from foon_asp.io.folder import Dataset
 from foon_asp.io.overwriting import refuse_inputs
 from foon_asp.limits import let_interrupts_finish
 from foon_asp.model.levels import FULL
@@ -68,7 +69,11 @@ def run(options: argparse.Namespace) -> Reply:
     refuse_inputs(files_of(target), paths_to_read(options))
     queries = QueryFile.scan(Path(options.queries))
     data = sources(options)
-    _tell_of(options)
+    opened = _opened(options)
+    alone = options.scheduler is None and options.jobs == 1
+    # What others answer from is not kept here, too.
+    dataset = opened if alone else None
+    del opened
     settings = Settings(options.time_limit, options.memory_limit, options.timings)
     jobs = min(options.jobs or cores(), queries.queries)
 
@@ -78,8 +83,8 @@ def run(options: argparse.Namespace) -> Reply:
             from foon_asp.batch.cluster import Scheduler, answer_on_cluster
 
             return answer_on_cluster(data, settings, chunks, Scheduler(options.scheduler, options.ship))
-        if options.jobs == 1:
-            return answer_here(data, settings, chunks)
+        if dataset is not None:
+            return answer_here(data, dataset, settings, chunks)
         # In a process of its own even on a single core: a query that takes all memory must not end the run.
         return answer_in_processes(data, settings, chunks, jobs)
 
@@ -100,8 +105,9 @@ def run(options: argparse.Namespace) -> Reply:
     return Reply(summary=f"{options.target}: {summary}")
 
 
-def _tell_of(options: argparse.Namespace) -> None:
-    """Read the data, and say what is odd in them: those who answer cannot tell."""
+def _opened(options: argparse.Namespace) -> Dataset:
+    """Read the data, and say what is odd in them: processes that answer cannot tell."""
     dataset = load_data(options)
     if dataset.kitchen.labels:
         tell_labels(options, dataset, dataset.world(level=FULL))
+    return dataset
