@@ -12,7 +12,8 @@ from foon_asp.model.node import ObjectId, ObjectNode
 from foon_asp.model.world import World
 from foon_asp.query.problem import Problem
 from support import brute_force
-from support.small_foons import many, node, queries, world
+from support.examples import many
+from support.small_foons import node, queries, world
 
 MOST = 4
 """How many steps are tried."""

@@ -13,7 +13,8 @@ from foon_asp.query.status import Status
 from foon_asp.query.substitution import Replacement
 from foon_asp.retrieval.adapt import adapt_dish
 from support import brute_adaptation, brute_force, brute_substitution
-from support.small_foons import many, world
+from support.examples import many
+from support.small_foons import world
 
 FOOD = ("apple", "berry", "cocoa")
 MORE = (*FOOD, "date")

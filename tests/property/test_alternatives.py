@@ -16,7 +16,8 @@ from foon_asp.retrieval.alternatives import all_optimal_trees, best_trees, diver
 from foon_asp.retrieval.menu import plan_menu
 from foon_asp.retrieval.tree import TaskTree
 from support import brute_force
-from support.small_foons import many, queries
+from support.examples import many
+from support.small_foons import queries
 
 Drawn = tuple[World, ObjectNode]
 Key = tuple[int | Fraction, ...]

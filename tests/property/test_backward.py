@@ -12,7 +12,8 @@ from foon_asp.model import reachability
 from foon_asp.model.node import ObjectId, ObjectNode, UnitId
 from foon_asp.model.reachability import backward
 from foon_asp.model.world import World
-from support.small_foons import many, queries
+from support.examples import many
+from support.small_foons import queries
 
 
 def plain(where: World, goals: Collection[ObjectId], among: Collection[UnitId]) -> list[UnitId]:

@@ -17,7 +17,8 @@ from foon_asp.model.world import World
 from foon_asp.planning.plan import replay_plan
 from foon_asp.retrieval.check import Check, CheckQuery, check_trees
 from support import brute_force
-from support.small_foons import domains, many
+from support.examples import many
+from support.small_foons import domains
 
 Drawn = tuple[World, tuple[UnitId, ...], int]
 

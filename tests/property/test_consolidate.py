@@ -15,7 +15,8 @@ from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import ObjectId, ObjectNode, UnitId
 from foon_asp.model.world import World
 from support import brute_force
-from support.small_foons import MOTIONS, domains, many, with_units
+from support.examples import many
+from support.small_foons import MOTIONS, domains, with_units
 
 STATES = ("whole", "chopped", "hot", "empty", "dirty", "ready")
 PLACES = ("bowl", "cup")

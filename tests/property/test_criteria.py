@@ -16,7 +16,8 @@ from foon_asp.query.constraints import Constraints
 from foon_asp.query.query import Query
 from foon_asp.retrieval.retrieve import retrieve
 from support import brute_force
-from support.small_foons import many, queries
+from support.examples import many
+from support.small_foons import queries
 
 Drawn = tuple[World, ObjectNode]
 

@@ -26,8 +26,8 @@ from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import Annotation, FunctionalUnit, Interval, Source, UnitId
 from foon_asp.model.world import World
 from support.drawn_foons import foons
+from support.examples import many
 from support.pictures import SVG
-from support.small_foons import many
 
 ODD = st.text(st.characters(exclude_categories=("Cc", "Cs")), max_size=12)
 TEXTS = ODD | st.sampled_from(

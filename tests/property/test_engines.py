@@ -12,7 +12,8 @@ from foon_asp.planning.planner import plan
 from foon_asp.planning.query import PlanQuery
 from foon_asp.query.query import Query
 from foon_asp.retrieval.retrieve import retrieve
-from support.small_foons import many, queries
+from support.examples import many
+from support.small_foons import queries
 
 
 @pytest.mark.parametrize("by", ["units", "success", "2*units+inputs", "units+tools"])

@@ -20,8 +20,9 @@ from foon_asp.retrieval.missing import missing_sets, shrunk
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.steps import StepRole, explain_steps, without_unit
 from support import brute_force
+from support.examples import many
 from support.explanations import as_nodes, stocked
-from support.small_foons import domains, many, queries
+from support.small_foons import domains, queries
 
 Cost = tuple[int, int, int, int]
 

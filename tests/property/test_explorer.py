@@ -18,7 +18,8 @@ from foon_asp.retrieval.missing import missing_sets
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.tree import TaskTree
 from support.browser import FREE, Explorer, question
-from support.small_foons import many, queries, world
+from support.examples import many
+from support.small_foons import queries, world
 
 OPTIMA = ("units", "success", "motions", "depth", "inputs", "tools", "dirty")
 METHODS: tuple[dict[str, Any], ...] = (

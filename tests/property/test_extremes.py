@@ -26,7 +26,8 @@ from foon_asp.retrieval.menu import plan_menu
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.suggest import suggest
 from support import brute_force
-from support.small_foons import many, queries, with_units
+from support.examples import many
+from support.small_foons import queries, with_units
 
 RATES = (0.0, 0.0, 1e-12, 0.0001, 0.0004, 0.0005, 0.5, 0.7, 0.9996, 0.9997, 0.9999999, 1.0)
 SECONDS = (None, 1, 120, 7200, 100_000, 30_000_000)

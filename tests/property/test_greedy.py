@@ -22,7 +22,8 @@ from foon_asp.query.query import Query
 from foon_asp.retrieval.methods.greedy import settled, solved
 from foon_asp.retrieval.retrieve import retrieve
 from support import brute_force
-from support.small_foons import MOTIONS, foon, many, motions, node, with_units, world
+from support.examples import many
+from support.small_foons import MOTIONS, foon, motions, node, with_units, world
 
 HEURISTICS = ["first", "success", "inputs"]
 RATES = (1.0, 0.9, 0.9, 0.9003, 0.9001, 0.5)

@@ -21,7 +21,7 @@ from foon_asp.io.store import open_store
 from foon_asp.io.store_tables import SCHEMAS, from_tables, to_tables
 from foon_asp.io.text import write_text
 from foon_asp.model.foon import Foon
-from support.small_foons import many
+from support.examples import many
 from support.stores import UNITS, seal, write_sealed, write_small_store
 
 

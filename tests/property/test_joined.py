@@ -22,7 +22,8 @@ from foon_asp.query.problem import Problem
 from foon_asp.query.query import Query
 from foon_asp.query.tariff import success_tariff
 from foon_asp.retrieval.retrieve import retrieve
-from support.small_foons import domains, many, queries, world
+from support.examples import many
+from support.small_foons import domains, queries, world
 
 CRITERIA = ("units", "success", "inputs", "motions", "tools", "dirty", "time")
 Models = set[tuple[frozenset[str], tuple[int, ...]]]

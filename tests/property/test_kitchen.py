@@ -23,7 +23,8 @@ from foon_asp.model.relations import MATCHINGS, Matching
 from foon_asp.model.world import World
 from support import brute_force
 from support.drawn_foons import NODE
-from support.small_foons import domains, many, queries
+from support.examples import many
+from support.small_foons import domains, queries
 
 NOTHING = FoonBuilder().build()
 

@@ -13,7 +13,8 @@ from foon_asp.model.and_or import AndOrGraph
 from foon_asp.model.node import ObjectId
 from foon_asp.model.reachability import backward
 from foon_asp.model.world import World
-from support.small_foons import domains, many
+from support.examples import many
+from support.small_foons import domains
 
 
 def _alone(where: World, goals: list[ObjectId]) -> AndOrGraph:

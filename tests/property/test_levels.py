@@ -20,8 +20,9 @@ from foon_asp.retrieval.reach import reach
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.tree import replay
 from support import brute_force
+from support.examples import many
 from support.level_checks import METHODS, check_lower_levels, images, made, on, read_units, shown
-from support.small_foons import domains, many, queries
+from support.small_foons import domains, queries
 
 WITH_REFERENCE = [each for each in METHODS if each[0] != "ids" and "depth" not in each[1]]
 

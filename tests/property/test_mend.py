@@ -13,7 +13,8 @@ from foon_asp.model.node import ObjectNode, State, UnitId
 from foon_asp.model.world import World
 from foon_asp.retrieval.judge import purpose
 from foon_asp.retrieval.mend import Mending, mend
-from support.small_foons import domains, many, world
+from support.examples import many
+from support.small_foons import domains, world
 from support.tokens import Deed, Tokens
 
 _MOST = 2

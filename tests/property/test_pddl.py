@@ -29,6 +29,7 @@ from foon_asp.query.objective import Criterion
 from foon_asp.query.problem import Problem
 from foon_asp.retrieval.tree import TaskTree
 from support import brute_force, small_foons
+from support.examples import many
 from support.pddl_by_others import before_pairs, check_readers, closed, holds
 from support.pddl_exports import assert_descriptions_match_one_object_only, can_execute, whole_task
 
@@ -47,7 +48,7 @@ LABELS = ODD_LABELS.filter(is_label)
 # Names
 
 
-@small_foons.many(200)
+@many(200)
 @given(st.lists(ODD_LABELS, min_size=1, max_size=12))
 def test_names_are_plain_and_one_to_one(texts: list[str]) -> None:
     namer = Namer()
@@ -75,7 +76,7 @@ def odd_foon(labels: list[str]) -> Foon:
     return builder.build()
 
 
-@small_foons.many(30)
+@many(30)
 @given(st.lists(LABELS, min_size=2, max_size=5, unique=True), st.sampled_from(STYLES))
 def test_odd_labels_export_and_parse(
     tmp_path_factory: pytest.TempPathFactory, labels: list[str], style: str
@@ -108,7 +109,7 @@ def test_comments_cannot_be_left(text: str) -> None:
 # Prices
 
 
-@small_foons.many(150)
+@many(150)
 @given(
     small_foons.queries(),
     st.sampled_from(
@@ -140,7 +141,7 @@ def counted_domains(draw: st.DrawFn) -> tuple[World, str]:
     return World.of(where.foon, kitchen, strict=where.strict), draw(st.sampled_from(SEMANTICS))
 
 
-@small_foons.many(60)
+@many(60)
 @given(counted_domains(), st.sampled_from(STYLES), st.integers(0, 10**6))
 def test_effects_are_those_of_the_semantics(drawn: tuple[World, str], style: str, seed: int) -> None:
     """Walk at random: the simulator of unified_planning can do what `Supply` can, and then has the same."""
@@ -178,7 +179,7 @@ def test_effects_are_those_of_the_semantics(drawn: tuple[World, str], style: str
 # The lifted style
 
 
-@small_foons.many(150)
+@many(150)
 @given(st.lists(LABELS, min_size=2, max_size=5, unique=True))
 def test_descriptions_match_one_object_only(labels: list[str]) -> None:
     foon = odd_foon(labels)
@@ -190,7 +191,7 @@ def test_descriptions_match_one_object_only(labels: list[str]) -> None:
 # Plans there and back
 
 
-@small_foons.many(60)
+@many(60)
 @given(small_foons.domains(), st.sampled_from(SEMANTICS), st.integers(0, 10**6))
 def test_orderings_are_those_of_the_plan(where: World, semantics: str, seed: int) -> None:
     effects = Effects(where, semantics)

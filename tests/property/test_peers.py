@@ -9,8 +9,9 @@ from hypothesis import given
 from foon_asp.model.node import ObjectNode
 from foon_asp.model.world import World
 from support import brute_force
+from support.examples import many
 from support.proofs import units
-from support.small_foons import many, queries
+from support.small_foons import queries
 
 Drawn = tuple[World, ObjectNode]
 

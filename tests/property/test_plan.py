@@ -28,8 +28,9 @@ from foon_asp.query.objective import Criterion
 from foon_asp.query.problem import Problem
 from foon_asp.render.plan import plan_text
 from support import brute_force
+from support.examples import many
 from support.plan_worlds import KITCHEN_UNITS, plan, recipes, with_quantities
-from support.small_foons import MOTIONS, RATES, domains, many, node, world
+from support.small_foons import MOTIONS, RATES, domains, node, world
 from support.tokens import State, Tokens
 
 

@@ -20,8 +20,9 @@ from foon_asp.planning.planner import plan
 from foon_asp.planning.query import PlanQuery
 from foon_asp.query.query import Query
 from support import brute_force
+from support.examples import many
 from support.level_checks import on
-from support.small_foons import many, node, world
+from support.small_foons import node, world
 
 PROVEN = [e.name for e in ENGINES if e.name in ("clingo", "fast-downward-opt", "pyperplan")]
 LABELS = "abc"

@@ -25,7 +25,8 @@ from foon_asp.retrieval.reach import reach
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.tree import TaskTree
 from support import brute_force, paper_pseudocode
-from support.small_foons import domains, many, node, queries, world
+from support.examples import many
+from support.small_foons import domains, node, queries, world
 
 Drawn = tuple[World, ObjectNode]
 

@@ -22,7 +22,8 @@ from foon_asp.retrieval.prune import pruned
 from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.tree import TaskTree
 from support import brute_force
-from support.small_foons import many, node, queries, world
+from support.examples import many
+from support.small_foons import node, queries, world
 
 BY = ["units", "success", "inputs", "depth", "depth,inputs", "2*depth+units", "human,success"]
 

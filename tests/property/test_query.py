@@ -11,8 +11,9 @@ from hypothesis import given
 from foon_asp.io.folder import Dataset
 from foon_asp.model.node import Source
 from foon_asp.model.world import World
+from support.examples import many
 from support.questions import FILES, PLAIN, Plain, ask, check_same_answer, check_skills, check_ways, tables
-from support.small_foons import domains, many, with_units
+from support.small_foons import domains, with_units
 
 # --- The questions, answered without any solver ----------------------------------------------------
 

@@ -15,7 +15,8 @@ from foon_asp.model.world import World
 from foon_asp.query.query import Query
 from foon_asp.retrieval.answer import Answer
 from foon_asp.retrieval.retrieve import retrieve
-from support.small_foons import many, queries
+from support.examples import many
+from support.small_foons import queries
 
 
 @many(60)

@@ -23,7 +23,8 @@ from foon_asp.retrieval.methods.climb import Climb
 from foon_asp.retrieval.relaxed import first_tree, keeps
 from foon_asp.retrieval.tree import TaskTree
 from support import brute_force
-from support.small_foons import many, node, queries, world
+from support.examples import many
+from support.small_foons import node, queries, world
 
 Trees = dict[frozenset[UnitId], list[float]]
 

@@ -24,7 +24,8 @@ from foon_asp.query.query import Query
 from foon_asp.retrieval.methods.proven import solved
 from foon_asp.retrieval.retrieve import retrieve
 from support import brute_force
-from support.small_foons import many, node
+from support.examples import many
+from support.small_foons import node
 
 _PLACES = ("in", "on", "under")
 _POOL = (

@@ -23,7 +23,8 @@ from foon_asp.query.query import Query
 from foon_asp.retrieval.explain import explain
 from foon_asp.retrieval.retrieve import retrieve
 from support import brute_force
-from support.small_foons import many, node, queries, world
+from support.examples import many
+from support.small_foons import node, queries, world
 
 # --- A grammar of rules -----------------------------------------------------------------------------
 

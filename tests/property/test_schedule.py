@@ -18,8 +18,9 @@ from foon_asp.planning.scheduler import schedule
 from foon_asp.query.query import Query
 from foon_asp.query.status import Status
 from support.brute_schedule import Kitchen
+from support.examples import many
 from support.plan_worlds import recipes
-from support.small_foons import MOTIONS, domains, many
+from support.small_foons import MOTIONS, domains
 
 MOST = 30_000
 """How many states are tried; there are never so many."""

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foon_asp.model.spelling import _inflected, misspellings
-from support.small_foons import many
+from support.examples import many
 
 
 def distance(one: str, other: str) -> int:

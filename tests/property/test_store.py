@@ -11,7 +11,7 @@ from foon_asp.io.store_tables import from_tables, to_tables
 from foon_asp.model.foon import Foon
 from foon_asp.model.node import ObjectNode, State
 from support.drawn_foons import foons
-from support.small_foons import many
+from support.examples import many
 
 
 @many(100)

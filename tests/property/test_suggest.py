@@ -17,7 +17,8 @@ from foon_asp.retrieval.retrieve import retrieve
 from foon_asp.retrieval.suggest import suggest
 from support import brute_force
 from support.dish_checks import takes
-from support.small_foons import domains, many
+from support.examples import many
+from support.small_foons import domains
 
 # --- Made with certain things ---------------------------------------------------------------------
 

@@ -14,7 +14,8 @@ from foon_asp.model.foon import FoonBuilder
 from foon_asp.model.kitchen import Kitchen
 from foon_asp.model.node import Annotation, UnitId
 from foon_asp.model.world import World
-from support.small_foons import domains, many, node
+from support.examples import many
+from support.small_foons import domains, node
 
 Recipes = list[tuple[list[int], list[int]]]
 

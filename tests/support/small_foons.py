@@ -27,7 +27,6 @@ from foon_asp.model.node import (
 )
 from foon_asp.model.world import World
 from support import brute_force
-from support.examples import many as many
 
 T = TypeVar("T")
 

@@ -16,8 +16,9 @@ from foon_asp.query.constraints import Constraints
 from foon_asp.query.query import Query
 from foon_asp.retrieval.retrieve import retrieve
 from support.cli import run
+from support.examples import many
 from support.level_checks import on
-from support.small_foons import many, node, queries, world
+from support.small_foons import node, queries, world
 
 UNITS = ("bowl{egg} -mix-> dough", "bowl{flour} -mix-> dough", "dough -bake-> cake")
 

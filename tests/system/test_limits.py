@@ -27,7 +27,8 @@ from foon_asp.query.constraints import Constraints
 from foon_asp.query.problem import Problem
 from support.batch_runs import gone, program, until
 from support.cli import run
-from support.small_foons import many, queries
+from support.examples import many
+from support.small_foons import queries
 
 FOREVER = "p(0). p(X+1) :- p(X)."
 HUGE = "p(1..1000000000)."

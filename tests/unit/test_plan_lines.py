@@ -13,7 +13,7 @@ from foon_asp.model.node import ObjectId, UnitId
 from foon_asp.planning.pddl.names import Names
 from foon_asp.planning.pddl.plan_file import read_plan, read_plans
 from foon_asp.planning.pddl.plan_lines import DIALECTS, read_lines
-from support.small_foons import many
+from support.examples import many
 
 NAMES = Names(
     {"jar-empty": ObjectId(0)},
